@@ -1,0 +1,82 @@
+#include "app/io/files.h"
+
+#include <fcntl.h>
+#include <sodium.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+namespace striae::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> WriteFailed(const fs::path& path, int reason) {
+  return Fail(ErrorCode::kIo, "cannot write " + path.string() + " (" + std::strerror(reason) +
+                                  "); check the folder, its permissions and the free space");
+}
+
+/// errno of the failure, 0 when every byte is on the disk.
+int WriteAndSync(int file, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return errno == 0 ? EIO : errno;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return ::fsync(file) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> ReadFile(const fs::path& path) {
+  std::error_code code;
+  if (!fs::exists(path, code)) {
+    return Fail(ErrorCode::kNotFound, path.string() + " does not exist; check the name and the folder");
+  }
+  if (fs::is_directory(path, code)) return Fail(ErrorCode::kIo, path.string() + " is a folder, not a file");
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  const auto size = stream.tellg();
+  std::vector<std::uint8_t> bytes(size > 0 ? static_cast<std::size_t>(size) : 0);
+  stream.seekg(0);
+  if (!bytes.empty()) stream.read(reinterpret_cast<char*>(bytes.data()), size);
+  if (!stream) return Fail(ErrorCode::kIo, path.string() + " cannot be read; check its permissions");
+  return bytes;
+}
+
+Result<std::string> ReadText(const fs::path& path) {
+  const auto bytes = ReadFile(path);
+  if (!bytes) return Fail(bytes.error());
+  return std::string(bytes->begin(), bytes->end());
+}
+
+Status WriteFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  std::string temporary = path.string() + ".part-XXXXXX";
+  const int file = ::mkstemp(temporary.data());
+  if (file < 0) return WriteFailed(path, errno);
+  ::fchmod(file, 0644);
+  int reason = WriteAndSync(file, bytes);
+  if (::close(file) != 0 && reason == 0) reason = errno;
+  if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
+  if (reason != 0) {
+    ::unlink(temporary.c_str());
+    return WriteFailed(path, reason);
+  }
+  return {};
+}
+
+Status WriteText(const fs::path& path, std::string_view text) {
+  return WriteFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+Sha256 HashOf(std::span<const std::uint8_t> bytes) {
+  Sha256 digest;
+  crypto_hash_sha256(digest.bytes.data(), bytes.data(), bytes.size());
+  return digest;
+}
+
+}  // namespace striae::app

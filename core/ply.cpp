@@ -1,0 +1,192 @@
+#include "core/ply.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "core/detail/ply_header.h"
+
+namespace striae {
+namespace {
+
+using detail::PlyElement;
+using detail::PlyHeader;
+using detail::PlyReader;
+using detail::PlyType;
+
+static_assert(std::endian::native == std::endian::little, "the codecs below copy little-endian values as they are");
+
+constexpr std::string_view kSensorComment = "striae sensor ";
+constexpr std::size_t kVertexBytes = 3 * 4 + 3 + 4 + 2 * 2;
+constexpr std::size_t kFaceBytes = 1 + 3 * 4;
+
+template <typename T>
+std::uint8_t* Put(std::uint8_t* out, const T& value) {
+  std::memcpy(out, &value, sizeof value);
+  return out + sizeof value;
+}
+
+std::string HeaderOf(const Surface& surface) {
+  std::string header = "ply\nformat binary_little_endian 1.0\n";
+  header += "comment " + std::string(kSensorComment) + std::to_string(surface.sensor_width_px) + " " +
+            std::to_string(surface.sensor_height_px) + "\n";
+  header += "comment units mm, camera frame: x right, y down, z forward\n";
+  for (const std::string& comment : surface.comments) header += "comment " + comment + "\n";
+  header += "element vertex " + std::to_string(surface.size()) + "\n";
+  header +=
+      "property float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property float quality\nproperty ushort col\nproperty ushort row\n";
+  header += "element face " + std::to_string(surface.faces.size()) + "\n";
+  return header + "property list uchar uint vertex_indices\nend_header\n";
+}
+
+/// Where each wanted property of the vertex element stands; -1 where the file has none.
+struct VertexColumns {
+  explicit VertexColumns(const PlyElement& element) {
+    constexpr const char* kNames[] = {"x", "y", "z", "red", "green", "blue", "quality", "col", "row"};
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      for (int wanted = 0; wanted < 9; ++wanted) {
+        if (element.properties[i].name == kNames[wanted]) at[wanted] = static_cast<int>(i);
+      }
+    }
+  }
+  [[nodiscard]] bool Has(int first, int last) const {
+    return std::all_of(at + first, at + last + 1, [](int column) { return column >= 0; });
+  }
+  int at[9] = {-1, -1, -1, -1, -1, -1, -1, -1, -1};
+};
+
+std::uint16_t PixelOf(double value) { return static_cast<std::uint16_t>(std::clamp(value, 0.0, 65535.0)); }
+
+std::uint8_t ChannelOf(double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0)); }
+
+Status ReadVertices(PlyReader& reader, const PlyElement& element, Surface& surface) {
+  const VertexColumns columns(element);
+  if (!columns.Has(0, 2)) return Fail(ErrorCode::kBadFile, "the PLY's vertices have no x, y, z");
+  const bool coloured = columns.Has(3, 5), weighted = columns.Has(6, 6), gridded = columns.Has(7, 8);
+  std::vector<double> values(element.properties.size());
+  for (std::size_t i = 0; i < element.count; ++i) {
+    if (!reader.ReadScalars(element, values)) return Fail(ErrorCode::kBadFile, "the PLY ends within its vertices");
+    const auto value = [&](int wanted) { return values[static_cast<std::size_t>(columns.at[wanted])]; };
+    const Eigen::Vector3d point(value(0), value(1), value(2));
+    if (!point.allFinite()) return Fail(ErrorCode::kBadFile, "vertex " + std::to_string(i) + " of the PLY is not finite");
+    surface.point_in_camera.push_back(point.cast<float>());
+    surface.colour.push_back(coloured ? Rgb8{ChannelOf(value(3)), ChannelOf(value(4)), ChannelOf(value(5))}
+                                      : Rgb8{200, 200, 200});
+    surface.quality.push_back(weighted && std::isfinite(value(6)) ? static_cast<float>(value(6)) : 1.0F);
+    if (gridded) {
+      surface.col.push_back(PixelOf(value(7)));
+      surface.row.push_back(PixelOf(value(8)));
+    }
+  }
+  return {};
+}
+
+Status ReadFaces(PlyReader& reader, const PlyElement& element, Surface& surface) {
+  std::vector<std::uint32_t> corners;
+  for (std::size_t i = 0; i < element.count; ++i) {
+    if (!reader.ReadFace(element, corners)) return Fail(ErrorCode::kBadFile, "the PLY ends within its faces");
+    for (const std::uint32_t corner : corners) {
+      if (corner >= surface.size()) {
+        return Fail(ErrorCode::kBadFile, "face " + std::to_string(i) + " of the PLY names a vertex that is not there");
+      }
+    }
+    for (std::size_t k = 2; k < corners.size(); ++k) surface.faces.push_back({corners[0], corners[k - 1], corners[k]});
+  }
+  return {};
+}
+
+void ReadComments(const PlyHeader& header, Surface& surface) {
+  for (const std::string& comment : header.comments) {
+    if (comment.starts_with(kSensorComment)) {
+      std::sscanf(comment.c_str() + kSensorComment.size(), "%d %d", &surface.sensor_width_px,
+                  &surface.sensor_height_px);
+    } else if (!comment.starts_with("units mm")) {
+      surface.comments.push_back(comment);
+    }
+  }
+}
+
+/// The sensor holds every pixel that the vertices name, whatever the comment said.
+void SettleSensorSize(Surface& surface) {
+  const int cols = surface.col.empty() ? 0 : *std::max_element(surface.col.begin(), surface.col.end()) + 1;
+  const int rows = surface.row.empty() ? 0 : *std::max_element(surface.row.begin(), surface.row.end()) + 1;
+  surface.sensor_width_px = std::clamp(std::max(surface.sensor_width_px, cols), 0, 65536);
+  surface.sensor_height_px = std::clamp(std::max(surface.sensor_height_px, rows), 0, 65536);
+  // A hostile comment must not make a grid of gigabytes out of a small file.
+  if (static_cast<std::size_t>(surface.sensor_width_px) * static_cast<std::size_t>(surface.sensor_height_px) >
+      std::size_t{400} << 20) {
+    surface.sensor_width_px = cols;
+    surface.sensor_height_px = rows;
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> EncodePly(const Surface& surface) {
+  const std::string header = HeaderOf(surface);
+  std::vector<std::uint8_t> bytes(header.size() + surface.size() * kVertexBytes + surface.faces.size() * kFaceBytes);
+  std::uint8_t* out = std::copy(header.begin(), header.end(), bytes.data());
+  const bool gridded = surface.HasGrid();
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const Eigen::Vector3f& p = surface.point_in_camera[i];
+    out = Put(Put(Put(out, p.x()), p.y()), p.z());
+    out = Put(Put(Put(out, surface.colour[i].r), surface.colour[i].g), surface.colour[i].b);
+    out = Put(out, surface.quality[i]);
+    out = Put(out, gridded ? surface.col[i] : std::uint16_t{0});
+    out = Put(out, gridded ? surface.row[i] : std::uint16_t{0});
+  }
+  for (const auto& face : surface.faces) {
+    out = Put(out, std::uint8_t{3});
+    for (const std::uint32_t corner : face) out = Put(out, corner);
+  }
+  return bytes;
+}
+
+Result<Surface> DecodePly(std::span<const std::uint8_t> bytes) {
+  auto header = detail::ReadPlyHeader(bytes);
+  if (!header) return Fail(header.error());
+  PlyReader reader(*header, bytes.subspan(header->size_bytes));
+  Surface surface;
+  ReadComments(*header, surface);
+  for (const PlyElement& element : header->elements) {
+    // Every row takes at least a byte, so a count beyond the file is a lie that must not be reserved for.
+    if (element.count > bytes.size()) return Fail(ErrorCode::kBadFile, "the PLY is shorter than its header says");
+    Status read;
+    if (element.name == "vertex") {
+      read = ReadVertices(reader, element, surface);
+    } else if (element.name == "face") {
+      read = ReadFaces(reader, element, surface);
+    } else {
+      read = reader.Skip(element) ? Status{} : Fail(ErrorCode::kBadFile, "the PLY ends within '" + element.name + "'");
+    }
+    if (!read) return Fail(read.error());
+  }
+  if (surface.point_in_camera.empty()) return Fail(ErrorCode::kBadFile, "the PLY holds no vertex");
+  SettleSensorSize(surface);
+  return surface;
+}
+
+std::vector<std::uint8_t> EncodeStl(const Surface& surface, std::string_view header) {
+  constexpr std::size_t kHeaderBytes = 80, kTriangleBytes = 50;
+  std::vector<std::uint8_t> bytes(kHeaderBytes + 4 + surface.faces.size() * kTriangleBytes);
+  // "solid" at the start would make readers take it for the ascii form.
+  const std::string text = (header.starts_with("solid") ? "STL " : "") + std::string(header);
+  std::memcpy(bytes.data(), text.data(), std::min(text.size(), kHeaderBytes - 1));
+  std::uint8_t* out = Put(bytes.data() + kHeaderBytes, static_cast<std::uint32_t>(surface.faces.size()));
+  for (const auto& face : surface.faces) {
+    const Eigen::Vector3f &a = surface.point_in_camera[face[0]], &b = surface.point_in_camera[face[1]],
+                          &c = surface.point_in_camera[face[2]];
+    const Eigen::Vector3f normal = (b - a).cross(c - a).normalized();
+    for (const Eigen::Vector3f* v : {&normal, &a, &b, &c}) out = Put(Put(Put(out, v->x()), v->y()), v->z());
+    out = Put(out, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+}  // namespace striae

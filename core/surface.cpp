@@ -1,0 +1,18 @@
+#include "core/surface.h"
+
+#include <stdexcept>
+
+namespace striae {
+
+Image<std::int32_t> VertexIndexGrid(const Surface& surface) {
+  if (!surface.HasGrid()) throw std::logic_error("VertexIndexGrid: surface without sensor pixels");
+  Image<std::int32_t> grid(surface.sensor_width_px, surface.sensor_height_px, -1);
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    if (grid.Contains(surface.col[i], surface.row[i])) {
+      grid(surface.col[i], surface.row[i]) = static_cast<std::int32_t>(i);
+    }
+  }
+  return grid;
+}
+
+}  // namespace striae

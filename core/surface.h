@@ -1,0 +1,31 @@
+// A measured surface: one vertex per valid sensor pixel, on that pixel's ray (CONTRACT "Surface").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/image.h"
+
+namespace striae {
+
+struct Surface {
+  int sensor_width_px = 0, sensor_height_px = 0;
+  std::vector<Eigen::Vector3f> point_in_camera;  ///< mm; row-major order of (row, col)
+  std::vector<Rgb8> colour;                      ///< one per point
+  std::vector<float> quality;                    ///< modulation 0..1, one per point
+  std::vector<std::uint16_t> col, row;           ///< sensor pixel, one per point
+  std::vector<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the camera (normals towards it)
+  std::vector<std::string> comments;             ///< provenance lines, printable ASCII
+
+  [[nodiscard]] std::size_t size() const { return point_in_camera.size(); }
+  [[nodiscard]] bool HasGrid() const { return col.size() == size() && row.size() == size() && sensor_width_px > 0; }
+};
+
+/// Vertex index of every sensor pixel, -1 where there is no point. Size sensor_width_px x sensor_height_px.
+Image<std::int32_t> VertexIndexGrid(const Surface& surface);
+
+}  // namespace striae
