@@ -1,0 +1,28 @@
+// The plain point sets that the parts of the head analysis hand to each other, in mm and the camera's frame.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/surface.h"
+
+namespace striae::head::detail {
+
+using Points = std::vector<Eigen::Vector3f>;
+
+/// Points with unit normals towards the camera; same length.
+struct Cloud {
+  Points point, normal;
+  [[nodiscard]] std::size_t size() const { return point.size(); }
+};
+
+Cloud Select(const Cloud& cloud, const std::vector<std::uint32_t>& indices);
+
+/// About one point every `spacing_mm`: means over square blocks of the sensor grid (over voxels where there is none),
+/// which also lowers the noise. Blocks across a depth step keep their nearer side. Order: rows of blocks (voxels).
+Points Thin(const Surface& surface, double spacing_mm);
+
+}  // namespace striae::head::detail

@@ -1,0 +1,63 @@
+// Rigid registration of a patch to a whole capture: point to plane, trimmed, with a normal gate. The adapter to PCL;
+// no PCL type stands here.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "analysis/head/detail/cloud.h"
+#include "core/result.h"
+
+namespace striae::head::detail {
+
+/// Normals from the plane through all neighbours within `radius_mm`, towards the camera; points with fewer than six
+/// neighbours are left out. Surfaces from PCL's NormalEstimation. kInternal if PCL fails.
+Result<Cloud> WithNormals(const Points& points, double radius_mm);
+
+/// A point of the patch (after the motion) and its counterpart with the normal there, in the target's frame.
+struct Pair {
+  Eigen::Vector3d moved, target, normal;
+  [[nodiscard]] double ToPlane() const { return normal.dot(moved - target); }
+};
+
+/// How well a patch lies on the target.
+struct Fit {
+  Eigen::Isometry3d target_from_patch = Eigen::Isometry3d::Identity();
+  std::vector<Pair> pairs;  ///< after gates and trimming
+  double residual_mm = 0;   ///< root mean square of ToPlane over the pairs
+  double overlap = 0;       ///< share of the patch's visible points with a counterpart within the gates
+  double visible = 0;       ///< share of the patch's points that face the camera after the motion
+  double loss = 1;          ///< mean over all points of the patch of min(1, (distance / gate)^2): compares starts
+};
+
+/// One stage: counterparts within `distance_mm`, at most `iterations` steps.
+struct Stage {
+  double distance_mm;
+  int iterations;
+};
+
+/// A capture prepared for many registrations.
+class Target {
+ public:
+  explicit Target(Cloud cloud);
+  ~Target();
+  Target(Target&&) noexcept;
+  Target& operator=(Target&&) noexcept;
+
+  /// Least squares (trim 0.9, normals within 35 degrees) through the stages, coarse to fine. Fewer than 50
+  /// counterparts end a stage: Judge shows it.
+  [[nodiscard]] Eigen::Isometry3d Align(const Cloud& patch, const Eigen::Isometry3d& start,
+                                        std::span<const Stage> stages) const;
+  /// Counterparts within `distance_mm` at a given motion.
+  [[nodiscard]] Fit Judge(const Cloud& patch, const Eigen::Isometry3d& target_from_patch, double distance_mm) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace striae::head::detail
