@@ -1,0 +1,20 @@
+// The parts of the printed report, each drawn at the sheet's cursor.
+#pragma once
+
+#include "report/detail/sheet.h"
+#include "report/page.h"
+
+namespace striae::report::detail {
+
+void DrawHeader(Sheet& sheet, const Page& page);
+void DrawHeadlines(Sheet& sheet, const std::vector<Headline>& headlines);
+/// In bands of at most five visits.
+void DrawTable(Sheet& sheet, const Section& section);
+void DrawPlots(Sheet& sheet, const Section& section);
+/// One strip: photographs above, depth maps below, a visit a column. Pictures grow into what is left of the page
+/// after `reserve` points.
+void DrawPictures(Sheet& sheet, const std::vector<PictureCard>& cards, double reserve);
+/// Missing captures and the footer; with `draw` false only their height.
+double DrawEnd(Sheet& sheet, const Page& page, bool draw);
+
+}  // namespace striae::report::detail
