@@ -1,0 +1,263 @@
+#include "analysis/wound/detail/quantities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace striae::wound {
+namespace {
+
+using Mask = std::vector<std::uint8_t>;
+
+// Quads (by their first cell) whose four corners are there and whose centre lies within the margin.
+Mask QuadsWithin(const Scene& scene, double margin_mm) {
+  const Patch& patch = scene.patch;
+  Mask quad(patch.size(), 0);
+  for (int j = 0; j + 1 < patch.height; ++j) {
+    for (int i = 0; i + 1 < patch.width; ++i) {
+      const double sum = scene.place[patch.At(i, j)].distance + scene.place[patch.At(i + 1, j)].distance +
+                         scene.place[patch.At(i, j + 1)].distance + scene.place[patch.At(i + 1, j + 1)].distance;
+      quad[patch.At(i, j)] = sum / 4 < margin_mm ? 1 : 0;  // infinite where a corner is missing
+    }
+  }
+  return quad;
+}
+
+// Two quads that touch in a corner only would make the mesh non-manifold: fill (at first) or cut until none is left.
+void JoinCorners(const Scene& scene, Mask& quad) {
+  const Patch& patch = scene.patch;
+  const auto possible = [&](int i, int j) {
+    return std::isfinite(scene.place[patch.At(i, j)].distance) &&
+           std::isfinite(scene.place[patch.At(i + 1, j)].distance) &&
+           std::isfinite(scene.place[patch.At(i, j + 1)].distance) &&
+           std::isfinite(scene.place[patch.At(i + 1, j + 1)].distance);
+  };
+  bool changed = true;
+  for (int round = 0; changed; ++round) {
+    changed = false;
+    const bool may_fill = round < 20;  // cutting alone always ends
+    for (int j = 0; j + 2 < patch.height; ++j) {
+      for (int i = 0; i + 2 < patch.width; ++i) {
+        auto& a = quad[patch.At(i, j)];
+        auto& b = quad[patch.At(i + 1, j)];
+        auto& c = quad[patch.At(i, j + 1)];
+        auto& d = quad[patch.At(i + 1, j + 1)];
+        if (a != d || b != c || a == b) continue;
+        const bool set = a != 0;  // else b and c are
+        auto& fill = set ? b : a;
+        auto& cut = set ? a : b;
+        if (may_fill && possible(set ? i + 1 : i, j)) {
+          fill = 1;
+        } else {
+          cut = 0;
+        }
+        changed = true;
+      }
+    }
+  }
+}
+
+void KeepLargestPart(const Patch& patch, Mask& quad) {
+  std::vector<std::size_t> best;
+  Mask seen(quad.size(), 0);
+  const auto width = static_cast<std::size_t>(patch.width);
+  for (std::size_t start = 0; start < quad.size(); ++start) {
+    if (quad[start] == 0 || seen[start] != 0) continue;
+    std::vector<std::size_t> part = {start};
+    seen[start] = 1;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      // Quads never lie in the last row or column, so that steps cannot wrap around a filled row's end.
+      for (const std::size_t next : {part[k] - 1, part[k] + 1, part[k] - width, part[k] + width}) {
+        if (next >= quad.size() || quad[next] == 0 || seen[next] != 0) continue;
+        seen[next] = 1;
+        part.push_back(next);
+      }
+    }
+    if (part.size() > best.size()) best = std::move(part);
+  }
+  std::fill(quad.begin(), quad.end(), std::uint8_t{0});
+  for (const auto q : best) quad[q] = 1;
+}
+
+double SignedPlaneArea(const Bed& bed, const std::array<std::uint32_t, 3>& t) {
+  const Eigen::Vector3d ab = bed.point[t[1]] - bed.point[t[0]], ac = bed.point[t[2]] - bed.point[t[0]];
+  return (ab.x() * ac.y() - ab.y() * ac.x()) / 2;
+}
+
+// One pass of a normalised Gaussian along rows (stride 1) or columns (stride width).
+void SmoothAlong(const Patch& patch, double sd_cells, bool rows, std::vector<double>& sum, std::vector<double>& mass) {
+  const int radius = static_cast<int>(std::ceil(3 * sd_cells));
+  std::vector<double> kernel(static_cast<std::size_t>(radius) + 1);
+  for (int k = 0; k <= radius; ++k) kernel[static_cast<std::size_t>(k)] = std::exp(-k * k / (2 * sd_cells * sd_cells));
+  std::vector<double> sum_out(sum.size(), 0), mass_out(mass.size(), 0);
+  for (int j = 0; j < patch.height; ++j) {
+    for (int i = 0; i < patch.width; ++i) {
+      double s = 0, m = 0;
+      for (int k = -radius; k <= radius; ++k) {
+        const int a = rows ? i + k : i, b = rows ? j : j + k;
+        if (a < 0 || b < 0 || a >= patch.width || b >= patch.height) continue;
+        const double weight = kernel[static_cast<std::size_t>(std::abs(k))];
+        s += weight * sum[patch.At(a, b)];
+        m += weight * mass[patch.At(a, b)];
+      }
+      sum_out[patch.At(i, j)] = s;
+      mass_out[patch.At(i, j)] = m;
+    }
+  }
+  sum = std::move(sum_out);
+  mass = std::move(mass_out);
+}
+
+double Percentile95(std::vector<std::pair<double, double>> value_and_area) {
+  std::sort(value_and_area.begin(), value_and_area.end());
+  double total = 0;
+  for (const auto& entry : value_and_area) total += entry.second;
+  double below = 0;
+  for (const auto& [value, area] : value_and_area) {
+    below += area;
+    if (below >= 0.95 * total) return value;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Bed TakeBed(const Scene& scene, double margin_mm) {
+  const Patch& patch = scene.patch;
+  Mask quad = QuadsWithin(scene, margin_mm);
+  JoinCorners(scene, quad);
+  KeepLargestPart(patch, quad);
+  Bed bed;
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> index(patch.size(), kNone);
+  const auto vertex = [&](int i, int j) {
+    const std::size_t cell = patch.At(i, j);
+    if (index[cell] == kNone) {
+      index[cell] = static_cast<std::uint32_t>(bed.cell.size());
+      bed.cell.push_back(cell);
+      bed.point.push_back(scene.local[cell]);
+      bed.distance.push_back(scene.place[cell].distance);
+    }
+    return index[cell];
+  };
+  for (int j = 0; j + 1 < patch.height; ++j) {
+    for (int i = 0; i + 1 < patch.width; ++i) {
+      if (quad[patch.At(i, j)] == 0) continue;
+      const auto a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i, j + 1), d = vertex(i + 1, j + 1);
+      bed.triangles.push_back({a, c, b});  // rows grow downwards: counter-clockwise seen from the camera
+      bed.triangles.push_back({b, c, d});
+    }
+  }
+  return bed;
+}
+
+std::vector<double> HeightsAbove(const Bed& bed, const Skin& skin) {
+  std::vector<double> height(bed.point.size());
+  for (std::size_t k = 0; k < height.size(); ++k) {
+    const auto& p = bed.point[k];
+    height[k] = skin.Height(p.x(), p.y()) - p.z();
+  }
+  return height;
+}
+
+double PrismSum(const Bed& bed, const std::vector<double>& height) {
+  double volume = 0;
+  for (const auto& t : bed.triangles) {
+    volume += SignedPlaneArea(bed, t) * (height[t[0]] + height[t[1]] + height[t[2]]) / 3;
+  }
+  return volume;
+}
+
+SheetPair MakeSheets(const Bed& bed, const Skin& skin) {
+  SheetPair pair{bed.point, bed.point, bed.triangles};
+  for (auto& p : pair.skin) p.z() = skin.Height(p.x(), p.y());
+  return pair;
+}
+
+std::vector<double> SmoothedHeights(const Scene& scene, const Skin& skin, double smoothing_mm, double reach_mm) {
+  std::vector<double> sum(scene.patch.size(), 0), mass(scene.patch.size(), 0);
+  for (std::size_t cell = 0; cell < sum.size(); ++cell) {
+    if (!(scene.place[cell].distance <= reach_mm)) continue;
+    const auto& p = scene.local[cell];
+    sum[cell] = skin.Height(p.x(), p.y()) - p.z();
+    mass[cell] = 1;
+  }
+  const double sd_cells = smoothing_mm / scene.patch.cell_mm();
+  if (sd_cells > 0.3) {  // less does not reach the neighbouring cell
+    SmoothAlong(scene.patch, sd_cells, true, sum, mass);
+    SmoothAlong(scene.patch, sd_cells, false, sum, mass);
+  }
+  for (std::size_t cell = 0; cell < sum.size(); ++cell) sum[cell] = mass[cell] > 0 ? sum[cell] / mass[cell] : 0;
+  return sum;
+}
+
+Depths MeasureDepths(const Scene& scene, const Bed& bed, const Skin& skin, const std::vector<double>& smoothed,
+                     double proud_threshold_mm) {
+  Depths depths;
+  std::vector<double> depth(bed.cell.size()), height(bed.cell.size());
+  Bed smooth = bed;
+  for (std::size_t k = 0; k < bed.cell.size(); ++k) {
+    auto& p = smooth.point[k];
+    height[k] = smoothed[bed.cell[k]];
+    depth[k] = height[k] / std::sqrt(1 + skin.Gradient(p.x(), p.y()).squaredNorm());
+    p.z() = skin.Height(p.x(), p.y()) - height[k];
+    if (bed.distance[k] <= 0 && depth[k] > depths.max_mm) {
+      depths.max_mm = depth[k];
+      depths.deepest = p.head<2>();
+    }
+  }
+  double plane_area = 0;
+  std::vector<std::pair<double, double>> by_depth;
+  for (const auto& t : bed.triangles) {
+    const double area = SignedPlaneArea(bed, t);
+    double proud = 0;
+    for (const auto v : t) proud += height[v] < -proud_threshold_mm ? -height[v] * area / 3 : 0;
+    depths.proud_all_mm3 += proud;
+    if (bed.distance[t[0]] + bed.distance[t[1]] + bed.distance[t[2]] > 0) continue;
+    depths.proud_mm3 += proud;
+    const Eigen::Vector3d ab = smooth.point[t[1]] - smooth.point[t[0]], ac = smooth.point[t[2]] - smooth.point[t[0]];
+    depths.bed_area_mm2 += ab.cross(ac).norm() / 2;
+    plane_area += area;
+    by_depth.emplace_back((depth[t[0]] + depth[t[1]] + depth[t[2]]) / 3, std::max(0.0, area));
+  }
+  depths.p95_mm = std::max(0.0, Percentile95(std::move(by_depth)));
+  // Cells follow the outline in steps: the share of area that they miss or add is corrected in the plane.
+  if (plane_area > 0) depths.bed_area_mm2 *= EnclosedArea(scene.outline) / plane_area;
+  return depths;
+}
+
+Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_mm, double cell_mm) {
+  Boundary boundary;
+  boundary.plane_area_mm2 = EnclosedArea(outline);
+  IntegrateOver(outline, cell_mm, [&](const Eigen::Vector2d& p, double area) {
+    boundary.area_mm2 += area * std::sqrt(1 + skin.Gradient(p.x(), p.y()).squaredNorm());
+  });
+  std::vector<Eigen::Vector3d> draped;
+  for (const auto& p : Resample(outline, step_mm)) draped.emplace_back(p.x(), p.y(), skin.Height(p.x(), p.y()));
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  for (std::size_t a = 0; a < draped.size(); ++a) {
+    boundary.perimeter_mm += (draped[(a + 1) % draped.size()] - draped[a]).norm();
+    for (std::size_t b = a + 1; b < draped.size(); ++b) {
+      const double chord = (draped[b] - draped[a]).norm();
+      if (chord <= boundary.length_mm) continue;
+      boundary.length_mm = chord;
+      axis = (draped[b] - draped[a]) / chord;
+    }
+  }
+  // Across: perpendicular to the chord, square to the mean normal of the outline.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+  for (const auto& p : draped) centre += p / static_cast<double>(draped.size());
+  for (std::size_t k = 0; k < draped.size(); ++k) {
+    normal += (draped[k] - centre).cross(draped[(k + 1) % draped.size()] - centre);
+  }
+  const Eigen::Vector3d across = normal.cross(axis).normalized();
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto& p : draped) {
+    low = std::min(low, p.dot(across));
+    high = std::max(high, p.dot(across));
+  }
+  boundary.width_mm = high - low;
+  return boundary;
+}
+
+}  // namespace striae::wound

@@ -1,0 +1,56 @@
+// Integrals and lengths of a wound between its bed and a virtual skin.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "analysis/wound/detail/closed_volume.h"
+#include "analysis/wound/detail/ring.h"
+
+namespace striae::wound {
+
+/// The measured surface inside the outline and a margin around it, as a triangulated disc of grid cells.
+struct Bed {
+  std::vector<std::size_t> cell;       ///< patch cell of every bed point
+  std::vector<Eigen::Vector3d> point;  ///< wound frame, unsmoothed
+  std::vector<double> distance;        ///< to the outline, negative inside
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Cells within `margin_mm` outside the outline; corner-touching parts are joined, separate specks dropped.
+Bed TakeBed(const Scene& scene, double margin_mm);
+
+/// Height of the skin above the bed at each bed point, along w.
+std::vector<double> HeightsAbove(const Bed& bed, const Skin& skin);
+/// Sum of vertical prisms, mm3: the same as VolumeBetween, but cheap (for many skins in turn).
+double PrismSum(const Bed& bed, const std::vector<double>& height);
+/// Bed and skin for CGAL.
+SheetPair MakeSheets(const Bed& bed, const Skin& skin);
+
+/// Height of the skin above the surface over all cells within `reach_mm` of the outline, Gaussian-smoothed by sd
+/// `smoothing_mm` (over what is there). Cells elsewhere are 0 and must not be asked.
+std::vector<double> SmoothedHeights(const Scene& scene, const Skin& skin, double smoothing_mm, double reach_mm);
+
+struct Depths {
+  double max_mm = 0, p95_mm = 0;  ///< along the skin's normal, on smoothed heights, inside the outline
+  Eigen::Vector2d deepest = Eigen::Vector2d::Zero();  ///< where, in the frame's plane
+  double proud_mm3 = 0;      ///< tissue above the skin by more than the threshold, inside the outline
+  double proud_all_mm3 = 0;  ///< the same with the margin
+  double bed_area_mm2 = 0;   ///< of the smoothed bed inside the outline
+};
+Depths MeasureDepths(const Scene& scene, const Bed& bed, const Skin& skin, const std::vector<double>& smoothed,
+                     double proud_threshold_mm);
+
+struct Boundary {
+  double area_mm2 = 0;        ///< of the skin inside the outline
+  double plane_area_mm2 = 0;  ///< of the outline in the frame's plane
+  double perimeter_mm = 0;    ///< of the outline draped on the skin
+  double length_mm = 0;       ///< longest chord of the draped outline
+  double width_mm = 0;        ///< extent across it, in the plane of the chord and the skin's tangents
+};
+Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_mm, double cell_mm);
+
+}  // namespace striae::wound

@@ -1,0 +1,21 @@
+// Puts a surface and an outline into the wound's own frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/wound/detail/report.h"
+#include "analysis/wound/detail/ring.h"
+
+namespace striae::wound {
+
+struct ScenePlus {
+  Scene scene;
+  double hole_share = 0;      ///< cells inside the outline that had no measured point
+  double boundary_share = 1;  ///< cells just outside the outline that belong to the skin's sheet
+};
+
+/// Checks, cuts out, fills holes, finds the frame and lays the outline on the skin. Errors as Measure().
+Result<ScenePlus> BuildScene(const Surface& surface, const Outline& outline, const Options& options);
+
+}  // namespace striae::wound

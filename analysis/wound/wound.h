@@ -1,0 +1,42 @@
+// Wound measurement: the healthy skin around an outline is continued across it (the virtual skin), and the wound is
+// what lies between that skin and the measured surface. Method, equations and limits: docs/wound.md.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/measurement.h"
+#include "core/outline.h"
+#include "core/result.h"
+#include "core/surface.h"
+
+namespace striae::wound {
+
+/// How a wound is measured. All lengths in mm, so that scaling them with the surface scales the results.
+struct Options {
+  double cell_mm = 0.3;    ///< pixels are averaged to cells of about this size; never finer than the sensor's pixels
+  double margin_mm = 1.0;  ///< volume is integrated this far outside the drawn line (harmless outside, harmful inside)
+  /// Where the ring of healthy skin may begin, outwards from the line; the first without a radial trend is taken.
+  std::vector<double> gaps_mm = {2, 3, 4, 6, 8, 10, 12, 15, 18};
+  double ring_width_mm = 12;
+  double radial_trend_mm = 0.1;    ///< step between the ring's inner edge and its middle that counts as oedema
+  double smoothing_mm = 0.7;       ///< sd of the Gaussian before depth and bed area; volume stays unsmoothed
+  double perimeter_step_mm = 1.0;  ///< the outline is resampled at this step and draped on the virtual skin
+  double max_ring_slope_deg = 60;  ///< steeper skin (against the ring's mean plane) cannot be continued by polynomials
+  double outline_sd_mm = 0.3;      ///< standard uncertainty of the drawn line's place, as a common offset
+  double scale_relative_sd = 0.002;  ///< standard uncertainty of the surface's scale (calibration)
+};
+
+/// Version of the method: changes whenever a number may change.
+std::string_view MethodVersion();
+
+/// Measures the wound inside `outline` (sensor pixels) on `surface` (mm, camera frame; must carry sensor col and row).
+/// Quantities, units and flags as CONTRACT has them: volume, proud_volume mL; area, bed_area cm2; perimeter, depth_max,
+/// depth_p95, depth_mean, length, width mm. Uncertainties are standard uncertainties. The report's provenance holds
+/// the parameters; the caller adds the inputs. Deterministic; single-threaded.
+/// Errors: kBadFile (surface without sensor pixels, outline with fewer than three points, not finite or self-crossing),
+/// kOutlineOffSurface (boundary off the sensor, off the surface or across its edge), kMeasurementRefused (wound too
+/// small, hole inside it, too little or too steep healthy skin around it), kUsage (options that cannot be meant).
+Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, const Options& options = {});
+
+}  // namespace striae::wound
