@@ -19,7 +19,7 @@ struct AuditRow {
   std::int64_t sequence = 0;
   Stamp stamp;
   std::string software;                             ///< "striae 0.1.0"
-  std::string action;                               ///< "create" or "change"
+  std::string action;                               ///< "create", "change", or "note" (the file's own format)
   std::string entity;                               ///< "subject", "capture", ...
   std::string entity_id;                            ///< UUID
   std::string field;                                ///< empty for create

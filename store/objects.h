@@ -28,6 +28,9 @@ class ObjectStore {
   /// The bytes, hashed again while read: kNotFound when absent, kRecordDamaged when not what they were.
   [[nodiscard]] Result<std::vector<std::uint8_t>> Get(const Sha256& sha256) const;
 
+  /// Hashes the object without holding it in memory: kNotFound, kRecordDamaged, or fine.
+  [[nodiscard]] Status Verify(const Sha256& sha256) const;
+
   /// True if a file of that name is there (its content is not looked at).
   [[nodiscard]] bool Has(const Sha256& sha256) const;
   /// Where the object is or would be. For reading only.

@@ -125,11 +125,16 @@ class Record {
 
   // The record about itself.
   Result<Overview> GetOverview();
-  /// Everything about one thing and where it leads: a pseudonym, a device serial, or the id (or its first eight or
-  /// more characters) of a subject, session, capture, outline, report, measurement, calibration or device, or a
-  /// SHA-256. {"type", "id", ...}.
+  /// What a name given by a person stands for: a pseudonym, a device serial, an id or its first eight or more
+  /// characters, or a SHA-256 (entity "object"). kNotFound, or kUsage when it fits several.
+  struct Found {
+    std::string entity;  ///< "subject", "session", "capture", "outcome", "measurement", ...
+    std::string id;
+  };
+  Result<Found> Find(std::string_view name);
+  /// Everything about one thing (named as for Find) and where it leads. {"type", "id", ...}.
   Result<nlohmann::json> Describe(std::string_view id);
-  /// Audit rows about one thing (named as for Describe), oldest first.
+  /// Audit rows about one thing (named as for Find), oldest first.
   Result<std::vector<AuditRow>> History(std::string_view entity);
   Result<AuditHead> Head();
   /// Verifies the audit chain, that every row is as its trail says, foreign keys, SQLite's own structure, and that

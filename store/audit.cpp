@@ -1,0 +1,45 @@
+// Reading the audit trail.
+#include "store/audit.h"
+
+#include <algorithm>
+
+#include "store/detail/audit_hash.h"
+#include "store/detail/impl.h"
+
+namespace striae::store {
+
+using detail::Guarded;
+using detail::RowView;
+
+bool CheckReport::Passed() const {
+  return std::none_of(findings.begin(), findings.end(),
+                      [](const Finding& finding) { return finding.severity == Finding::Severity::kError; });
+}
+
+Result<std::vector<AuditRow>> Record::History(std::string_view entity) {
+  const auto found = Find(entity);
+  if (!found) return Fail(found.error());
+  return Guarded([&] {
+    // Consent is kept beside the subject, and measurements beside their report: their rows belong to its history.
+    return impl_->database.Rows("SELECT " + std::string(detail::kAuditColumns) +
+                                    " FROM audit WHERE entity_id = ?1 OR entity_id IN (SELECT id FROM consent WHERE "
+                                    "subject_id = ?1) OR entity_id IN (SELECT id FROM measurement WHERE outcome_id = "
+                                    "?1) ORDER BY origin, sequence",
+                                detail::ReadAuditRow, found->id);
+  });
+}
+
+Result<AuditHead> Record::Head() {
+  return Guarded([&] {
+    return impl_->database
+        .One(
+            "SELECT sequence, hash FROM audit WHERE origin = (SELECT origin FROM this_copy) ORDER BY sequence DESC "
+            "LIMIT 1",
+            [](const RowView& row) {
+              return AuditHead{row.Integer(0), row.Hash(1)};
+            })
+        .value_or(AuditHead{});
+  });
+}
+
+}  // namespace striae::store

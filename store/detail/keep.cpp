@@ -1,0 +1,12 @@
+#include "store/detail/keep.h"
+
+namespace striae::store::detail {
+
+void InsertObject(Change& change, Database& database, const Sha256& sha256, std::uint64_t size_bytes,
+                  const Stamp& stamp) {
+  if (database.Count("SELECT count(*) FROM object WHERE id = ?", sha256) != 0) return;
+  change.Insert("object",
+                {{"id", ToValue(sha256)}, {"size_bytes", ToValue(size_bytes)}, {"kept_at", ToValue(stamp.now)}});
+}
+
+}  // namespace striae::store::detail
