@@ -71,9 +71,15 @@ Result<SessionId> ParseSessionId(const std::string& text) {
 Result<Capture> FindCapture(store::Record& record, const std::string& text) {
   const auto found = record.Find(text);
   if (!found) return Fail(found.error());
+  if (found->entity == "object") {
+    const auto sha256 = Sha256::Parse(found->id);
+    if (!sha256) return Fail(sha256.error());
+    const auto captures = record.CapturesOf(*sha256);
+    if (captures && captures->size() == 1) return captures->front();
+  }
   if (found->entity != "capture") {
-    return Fail(ErrorCode::kNotFound,
-                "'" + text.substr(0, 40) + "' is a " + found->entity + ", not a capture; see 'striae show SESSION'");
+    return Fail(ErrorCode::kNotFound, "'" + text.substr(0, 40) + "' is the id of: " + found->entity +
+                                          ", not a capture; see 'striae show SESSION'");
   }
   const auto id = CaptureId::Parse(found->id);
   if (!id) return Fail(id.error());

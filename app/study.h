@@ -24,9 +24,9 @@ IdType NewId() {
 /// The study in -C DIR, or in the current folder.
 Result<store::Record> OpenStudy(const Context& context);
 
-/// Ids and dates as typed on the command line: kUsage with the option's name when they cannot be meant.
+/// A session's id as typed: kNotFound, with what to do, when it cannot be one.
 Result<SessionId> ParseSessionId(const std::string& text);
-/// A capture's id, or its first eight or more characters.
+/// By a capture's id, its first eight or more characters, or its photograph's SHA-256.
 Result<Capture> FindCapture(store::Record& record, const std::string& text);
 
 }  // namespace striae::app

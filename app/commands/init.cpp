@@ -1,0 +1,46 @@
+// `striae init`: a new study.
+#include "app/study.h"
+#include "store/json.h"
+
+namespace striae::app {
+namespace {
+
+struct Options {
+  std::filesystem::path folder;
+  Study study;
+  Site site;
+};
+
+}  // namespace
+
+void AddCommand_init(CLI::App& root, Context& context) {
+  CLI::App* command = AddCommand(root, context, "init", "Make a new study in an empty or new folder",
+                                 "striae init trial --protocol WND-01 --title \"Healing of leg ulcers\" --sponsor "
+                                 "\"Example Institute\" --site LJ --time-zone Europe/Ljubljana");
+  auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "The study's folder")->required();
+  command->add_option("--protocol", options->study.protocol, "The sponsor's protocol number")->required();
+  command->add_option("--title", options->study.title, "Title of the study")->required();
+  command->add_option("--sponsor", options->study.sponsor, "Who is responsible for the study")->required();
+  command->add_option("--coordinating-centre", options->study.coordinating_centre, "Coordinating centre");
+  command->add_option("--site", options->site.code, "Short code of the site that this copy belongs to")->required();
+  command->add_option("--site-name", options->site.name, "Name of the site");
+  command->add_option("--time-zone", options->site.time_zone,
+                      "IANA name of the site's time zone (default: this machine's)");
+  OnRun(command, context, [options](Context& run) -> Status {
+    const store::Stamp stamp = NewStamp();
+    Study study = options->study;
+    study.id = NewId<StudyId>();
+    Site site = options->site;
+    site.id = NewId<SiteId>();
+    if (site.time_zone.empty()) site.time_zone = stamp.zone;
+    const auto record = store::Record::Create(options->folder, study, site, NewUuid(), stamp);
+    if (!record) return Fail(record.error(), "making the study");
+    run.Output({{"id", study.id.ToString()}, {"study", store::ToJson(study)}, {"site", store::ToJson(site)}},
+               "study " + study.protocol + " in " + options->folder.string() + "; next: striae -C " +
+                   options->folder.string() + " subject add S001");
+    return {};
+  });
+}
+
+}  // namespace striae::app

@@ -1,0 +1,72 @@
+// `striae results`: the study's measurements.
+#include <cstdio>
+
+#include "app/study.h"
+#include "store/json.h"
+
+namespace striae::app {
+namespace {
+
+struct Options {
+  std::string subject, session;
+  bool all = false;
+};
+
+Result<store::ResultFilter> FilterOf(store::Record& record, const Options& options) {
+  store::ResultFilter filter;
+  filter.with_superseded = options.all;
+  if (!options.subject.empty()) {
+    const auto subject = record.SubjectByPseudonym(options.subject);
+    if (!subject) return Fail(subject.error());
+    filter.subject = subject->id;
+  }
+  if (!options.session.empty()) {
+    const auto session = ParseSessionId(options.session);
+    if (!session) return Fail(session.error());
+    filter.session = *session;
+  }
+  return filter;
+}
+
+std::string LineOf(const store::ResultRow& row) {
+  const Measurement& m = row.measurement;
+  char numbers[96];
+  std::snprintf(numbers, sizeof numbers, "%12.4g +- %-10.2g %-4s", m.value, m.uncertainty, m.unit.c_str());
+  std::string line = row.subject.pseudonym + "  " + row.visit.name + "  " + row.role.ToString() + "  " + m.name;
+  line.resize(std::max<std::size_t>(line.size() + 1, 48), ' ');
+  line += numbers;
+  if (m.status == Measurement::Status::kFlagged) line += "  flagged: " + m.reason;
+  if (row.superseded) line += "  (superseded)";
+  return line;
+}
+
+Status Print(Context& run, const Options& options) {
+  auto record = OpenStudy(run);
+  if (!record) return Fail(record.error());
+  const auto filter = FilterOf(*record, options);
+  if (!filter) return Fail(filter.error());
+  const auto rows = record->Results(*filter);
+  if (!rows) return Fail(rows.error());
+  nlohmann::json list = nlohmann::json::array();
+  std::string text;
+  for (const store::ResultRow& row : *rows) {
+    list.push_back(store::ToJson(row));
+    text += (text.empty() ? "" : "\n") + LineOf(row);
+  }
+  run.Output({{"measurements", list}}, text.empty() ? "no measurements; 'striae status' says what is pending" : text);
+  return {};
+}
+
+}  // namespace
+
+void AddCommand_results(CLI::App& root, Context& context) {
+  CLI::App* command = AddCommand(root, context, "results", "Print the measurements with their standard uncertainty",
+                                 "striae -C trial results --subject S001 --json");
+  auto options = std::make_shared<Options>();
+  command->add_option("--subject", options->subject, "Only those of this subject");
+  command->add_option("--session", options->session, "Only those of this session");
+  command->add_flag("--all", options->all, "Superseded measurements too");
+  OnRun(command, context, [options](Context& run) { return Print(run, *options); });
+}
+
+}  // namespace striae::app

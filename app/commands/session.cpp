@@ -1,0 +1,109 @@
+// `striae session open|list|close`: one subject before the camera, at one visit.
+#include "app/study.h"
+#include "store/json.h"
+
+namespace striae::app {
+namespace {
+
+struct Options {
+  std::string subject, visit, session;
+  std::optional<int> clock_offset_s;
+};
+
+nlohmann::json Placed(const Session& session, const Subject& subject, const Visit& visit) {
+  nlohmann::json object = store::ToJson(session);
+  object["subject"] = subject.pseudonym;
+  object["visit"] = visit.name;
+  return object;
+}
+
+Status Open(Context& run, const Options& options) {
+  auto record = OpenStudy(run);
+  if (!record) return Fail(record.error());
+  const auto subject = record->SubjectByPseudonym(options.subject);
+  if (!subject) return Fail(subject.error());
+  const auto sites = record->Sites();
+  if (!sites) return Fail(sites.error());
+  const store::Stamp stamp = NewStamp();
+  Session session;
+  session.id = NewId<SessionId>();
+  session.subject = subject->id;
+  session.operator_name = stamp.user;
+  session.opened_at = stamp.now;
+  session.camera_clock_offset_s = options.clock_offset_s;
+  for (const Site& site : *sites) {
+    if (site.id == subject->site) session.site_time_zone = site.time_zone;
+  }
+  const auto opened = record->OpenSession(session, options.visit, NewId<VisitId>(), stamp);
+  if (!opened) return Fail(opened.error(), "opening a session");
+  if (!subject->HasActiveConsent()) {
+    run.Note("note: " + subject->pseudonym + " has no active consent; photographs will be refused until it is entered");
+  }
+  run.Output(Placed(*opened, *subject, Visit{opened->visit, subject->id, options.visit}), opened->id.ToString());
+  return {};
+}
+
+Status List(Context& run, const Options& options) {
+  auto record = OpenStudy(run);
+  if (!record) return Fail(record.error());
+  std::optional<SubjectId> only;
+  if (!options.subject.empty()) {
+    const auto subject = record->SubjectByPseudonym(options.subject);
+    if (!subject) return Fail(subject.error());
+    only = subject->id;
+  }
+  const auto sessions = record->Sessions(only);
+  if (!sessions) return Fail(sessions.error());
+  nlohmann::json list = nlohmann::json::array();
+  std::string text;
+  for (const Session& session : *sessions) {
+    const auto subject = record->SubjectById(session.subject);
+    if (!subject) return Fail(subject.error());
+    const auto visit = record->VisitById(session.visit);
+    if (!visit) return Fail(visit.error());
+    list.push_back(Placed(session, *subject, *visit));
+    text += (text.empty() ? "" : "\n") + session.id.ToString() + "  " + subject->pseudonym + "  " + visit->name + "  " +
+            session.opened_at.ToString() + (session.closed_at ? "  closed" : "  open");
+  }
+  run.Output({{"sessions", list}}, text.empty() ? "no sessions yet" : text);
+  return {};
+}
+
+Status Close(Context& run, const Options& options) {
+  const auto id = ParseSessionId(options.session);
+  if (!id) return Fail(id.error());
+  auto record = OpenStudy(run);
+  if (!record) return Fail(record.error());
+  if (const Status closed = record->CloseSession(*id, NewStamp()); !closed) {
+    return Fail(closed.error(), "closing session " + id->ToString());
+  }
+  const auto session = record->SessionById(*id);
+  if (!session) return Fail(session.error());
+  run.Output(store::ToJson(*session), "closed");
+  return {};
+}
+
+}  // namespace
+
+void AddCommand_session(CLI::App& root, Context& context) {
+  CLI::App& group = Group(root, "session", "Sessions: one subject before the camera, at one visit");
+  auto options = std::make_shared<Options>();
+  CLI::App* open = AddCommand(group, context, "open", "Open a session and print its id",
+                              "striae -C trial session open --subject S001 --visit V1 --json");
+  open->add_option("--subject", options->subject, "Pseudonym")->required();
+  open->add_option("--visit", options->visit, "Name of the visit; it is made when new")->required();
+  open->add_option("--camera-clock-offset", options->clock_offset_s, "Camera clock minus UTC, seconds, as measured");
+  OnRun(open, context, [options](Context& run) { return Open(run, *options); });
+
+  CLI::App* list =
+      AddCommand(group, context, "list", "List the sessions", "striae -C trial session list --subject S001");
+  list->add_option("--subject", options->subject, "Only those of this subject");
+  OnRun(list, context, [options](Context& run) { return List(run, *options); });
+
+  CLI::App* close = AddCommand(group, context, "close", "Close a session; no photograph is added any more",
+                               "striae -C trial session close 3f0c4f5e-8a55-4f0e-9d5e-0a6c3c1d2b10");
+  close->add_option("SESSION", options->session, "The session's id")->required();
+  OnRun(close, context, [options](Context& run) { return Close(run, *options); });
+}
+
+}  // namespace striae::app

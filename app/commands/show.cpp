@@ -1,0 +1,46 @@
+// `striae show`: anything in the record, with what it came from and what came from it.
+#include "app/study.h"
+
+namespace striae::app {
+namespace {
+
+/// JSON as indented lines for a person; `--json` has the document itself.
+void Append(const nlohmann::json& value, const std::string& indent, std::string& text) {
+  for (const auto& [key, entry] : value.items()) {
+    const std::string name = indent + (value.is_array() ? "-" : key + ":");
+    if (entry.is_structured() && !entry.empty()) {
+      text += name + "\n";
+      Append(entry, indent + "  ", text);
+    } else if (!entry.is_structured() && !entry.is_null() && entry != "") {
+      text += name + " " + (entry.is_string() ? entry.get<std::string>() : entry.dump()) + "\n";
+    }
+  }
+}
+
+Status Show(Context& run, const std::string& id) {
+  auto record = OpenStudy(run);
+  if (!record) return Fail(record.error());
+  const auto described = record->Describe(id);
+  if (!described) return Fail(described.error());
+  std::string text;
+  Append(*described, "", text);
+  if (!text.empty()) text.pop_back();
+  run.Output(*described, text);
+  return {};
+}
+
+}  // namespace
+
+void AddCommand_show(CLI::App& root, Context& context) {
+  CLI::App* command = AddCommand(root, context, "show", "Show one thing with all that it came from and led to",
+                                 "striae -C trial show S001");
+  auto id = std::make_shared<std::string>();
+  command
+      ->add_option("ID", *id,
+                   "A pseudonym, a device's serial, a SHA-256, or the id (or its first eight or more characters) of a "
+                   "session, capture, report or measurement")
+      ->required();
+  OnRun(command, context, [id](Context& run) { return Show(run, *id); });
+}
+
+}  // namespace striae::app
