@@ -22,6 +22,7 @@ using PclCloud = pcl::PointCloud<pcl::PointNormal>;
 
 constexpr float kTrim = 0.9F;
 constexpr std::size_t kLeastPairs = 50;
+constexpr double kHiddenCost = 0.25;
 const double kNormalGateCosine = std::cos(35 * std::numbers::pi / 180);
 
 PclCloud::Ptr ToPcl(const Cloud& cloud, const Eigen::Isometry3d& motion) {
@@ -172,10 +173,14 @@ Fit Target::Judge(const Cloud& patch, const Eigen::Isometry3d& target_from_patch
     visible[i] = -point.normalized().dot((*moved)[i].getNormalVector3fMap()) > 0.26F ? 1 : 0;
     visible_count += static_cast<std::size_t>(visible[i]);
   }
-  double loss = static_cast<double>(patch.size() - matched.size());
+  // Without a counterpart a hidden point costs a little, so that hiding the patch is no way to fit it.
+  const auto cost = [&](std::size_t i) { return visible[i] != 0 ? 1.0 : kHiddenCost; };
+  double loss = 0;
+  for (std::size_t i = 0; i < moved->size(); ++i) loss += cost(i);
   for (const auto& pair : matched) {
-    loss += pair.distance / (distance_mm * distance_mm);  // PCL's distance is squared
-    found += static_cast<std::size_t>(visible[static_cast<std::size_t>(pair.index_query)]);
+    const auto i = static_cast<std::size_t>(pair.index_query);
+    loss += pair.distance / (distance_mm * distance_mm) - cost(i);  // PCL's distance is squared
+    found += static_cast<std::size_t>(visible[i]);
   }
   if (patch.size() == 0 || visible_count == 0 || matched.empty()) return fit;
   fit.loss = loss / static_cast<double>(patch.size());

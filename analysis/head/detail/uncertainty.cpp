@@ -11,6 +11,8 @@
 namespace striae::head::detail {
 namespace {
 
+constexpr std::size_t kLeastCells = 9;  // fewer say nothing about their own spread
+
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -59,7 +61,7 @@ std::vector<Eigen::Vector3d> BootstrapRotations(std::span<const Pair> pairs, dou
       key[static_cast<std::size_t>(k)] = static_cast<int>(std::floor(pair.moved[k] / cell_mm));
     Add(pair, middle, by_cell[key]);
   }
-  if (by_cell.size() < 4) return {};
+  if (by_cell.size() < kLeastCells) return {};
   std::vector<const Equations*> cells;
   Equations whole;
   for (const auto& [key, equations] : by_cell) {

@@ -17,7 +17,8 @@ double Observability_mm(std::span<const Pair> pairs);
 
 /// Block bootstrap: cells of `cell_mm` are drawn with replacement and the linear step is solved again; residuals of
 /// neighbours go together, so correlated noise counts as what it is. Each sample is the small rotation (rad, target's
-/// frame) by which the fit would have differed. Same seed, same samples. Empty when the step cannot be solved.
+/// frame) by which the fit would have differed. Same seed, same samples. Empty with fewer than nine cells, or when the
+/// step cannot be solved.
 std::vector<Eigen::Vector3d> BootstrapRotations(std::span<const Pair> pairs, double cell_mm, int resamples,
                                                 std::uint64_t seed);
 
