@@ -1,5 +1,6 @@
 #include "analysis/wound/detail/ring.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -12,6 +13,13 @@ constexpr int kSectors = 36, kTrendSectors = 24;
 constexpr double kSectorFilled = 0.3;
 
 int SectorOf(double along, int sectors) { return std::min(sectors - 1, static_cast<int>(along * sectors)); }
+
+// Medians, so that hair does not pass for swelling.
+double Median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 // Compares occupied squares of the frame's plane with those that the whole ring would occupy.
 void MeasureCoverage(const Scene& scene, Ring& ring, const std::vector<Eigen::Vector3d>& all) {
@@ -73,23 +81,17 @@ Ring TakeRing(const Scene& scene, double gap_mm, double width_mm) {
 }
 
 RadialTrend FindRadialTrend(const Ring& ring, const Skin& skin) {
-  struct Sum {
-    double inner = 0, inner_count = 0, middle = 0, middle_count = 0;
-  };
-  std::array<Sum, kTrendSectors> sums{};
+  std::array<std::vector<double>, kTrendSectors> inner, middle;
   for (std::size_t k = 0; k < ring.points.size(); ++k) {
     const auto& p = ring.points[k];
     const double depth_in_ring = (ring.places[k].distance - ring.gap_mm) / ring.width_mm;
     if (depth_in_ring > 0.5) continue;
-    const double residual = p.z() - skin.Height(p.x(), p.y());
-    if (std::abs(residual) > 6 * skin.rms_mm) continue;  // hair, not swelling
-    Sum& sum = sums[static_cast<std::size_t>(SectorOf(ring.places[k].along, kTrendSectors))];
-    (depth_in_ring < 1.0 / 6 ? sum.inner : sum.middle) += residual;
-    (depth_in_ring < 1.0 / 6 ? sum.inner_count : sum.middle_count) += 1;
+    const auto sector = static_cast<std::size_t>(SectorOf(ring.places[k].along, kTrendSectors));
+    (depth_in_ring < 1.0 / 6 ? inner : middle)[sector].push_back(p.z() - skin.Height(p.x(), p.y()));
   }
   std::vector<double> steps;
-  for (const auto& s : sums) {
-    if (s.inner_count > 0 && s.middle_count > 0) steps.push_back(s.inner / s.inner_count - s.middle / s.middle_count);
+  for (std::size_t s = 0; s < kTrendSectors; ++s) {
+    if (!inner[s].empty() && !middle[s].empty()) steps.push_back(Median(inner[s]) - Median(middle[s]));
   }
   if (steps.size() < kTrendSectors / 2) return {};
   double mean = 0, square = 0;

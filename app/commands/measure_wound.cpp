@@ -1,0 +1,73 @@
+// striae measure wound SURFACE --outline OUTLINE: volume, areas and lengths of a wound.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "analysis/wound/wound.h"
+#include "app/command.h"
+#include "app/io/files.h"
+#include "core/outline.h"
+#include "core/ply.h"
+
+namespace striae::app {
+namespace {
+
+struct WoundOptions {
+  std::filesystem::path surface, outline;
+};
+
+std::string Line(const Measurement& m) {
+  char text[120];
+  std::snprintf(text, sizeof text, "  %-13s %10.3f +- %-8.3f %-4s", m.name.c_str(), m.value, m.uncertainty,
+                m.unit.c_str());
+  return text;
+}
+
+std::string Text(const AnalysisReport& report) {
+  std::string text = "Wound below the virtual skin (standard uncertainties):\n";
+  for (const Measurement& m : report.measurements) {
+    text += Line(m);
+    if (m.status == Measurement::Status::kFlagged) text += " flagged: " + m.reason;
+    text += '\n';
+  }
+  const auto& skin = report.details["skin"];
+  char method[200];
+  std::snprintf(method, sizeof method, "  skin: %s from a ring %.0f to %.0f mm outside the line, %.2f mm rms",
+                skin["model"].get<std::string>().c_str(), skin["gap_mm"].get<double>(),
+                skin["gap_mm"].get<double>() + skin["ring_width_mm"].get<double>(), skin["ring_rms_mm"].get<double>());
+  return text + method;
+}
+
+Status Run(const WoundOptions& options, Context& context) {
+  const auto surface_bytes = ReadFile(options.surface);
+  if (!surface_bytes) return Fail(surface_bytes.error(), "reading the surface");
+  const auto surface = DecodePly(*surface_bytes);
+  if (!surface) return Fail(surface.error(), "reading the surface " + options.surface.string());
+  const auto outline_bytes = ReadFile(options.outline);
+  if (!outline_bytes) return Fail(outline_bytes.error(), "reading the outline");
+  const auto outline = OutlineFromJson({reinterpret_cast<const char*>(outline_bytes->data()), outline_bytes->size()});
+  if (!outline) return Fail(outline.error(), "reading the outline " + options.outline.string());
+
+  auto report = wound::Measure(*surface, *outline);
+  if (!report) return Fail(report.error(), "measuring the wound on " + options.surface.string());
+  report->provenance.inputs = {{"surface", HashOf(*surface_bytes)}, {"outline", HashOf(*outline_bytes)}};
+  context.Output(ToJson(*report), Text(*report));
+  return {};
+}
+
+}  // namespace
+
+void AddCommand_measure_wound(CLI::App& root, Context& context) {
+  CLI::App& group = Group(root, "measure", "Measure on reconstructed surfaces");
+  const auto options = std::make_shared<WoundOptions>();
+  CLI::App* command = AddCommand(group, context, "wound", "Volume, areas and lengths of a wound inside a drawn outline",
+                                 "striae measure wound calf.ply --outline calf.outline.json --json");
+  command->add_option("surface", options->surface, "Surface of the photograph (PLY, as striae reconstruct writes it)")
+      ->required();
+  command->add_option("--outline", options->outline, "Outline of the wound in sensor pixels (JSON, LabelMe too)")
+      ->required();
+  OnRun(command, context, [options](Context& c) { return Run(*options, c); });
+}
+
+}  // namespace striae::app
