@@ -132,9 +132,9 @@ Status CheckEvidence(const AnalysisReport& report, const std::vector<ObjectRefer
   }
   for (const ObjectReference& object : evidence) {
     if (object.sop_instance_uid.empty() || object.sop_class_uid.empty() || object.series_uid.empty() ||
-        object.study_uid != evidence.front().study_uid) {
+        object.study_uid.empty()) {
       return Fail(ErrorCode::kMeasurementRefused,
-                  "the " + report.analysis + " report refers to an object without UIDs or of another study");
+                  "the " + report.analysis + " report refers to an object without UIDs");
     }
   }
   return {};

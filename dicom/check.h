@@ -21,7 +21,7 @@ Result<std::string_view> MeaningOfUnit(std::string_view unit);
 /// kMeasurementRefused with the measurement and the reason: no measurements; value or uncertainty not finite or
 /// uncertainty negative; a code without scheme, value (at most 16 characters) or meaning (64); a unit that does not
 /// fit the quantity, by its code and by its name; flagged without a reason; no version; no photograph in the evidence,
-/// a wound without its surface, or evidence of several DICOM studies.
+/// a wound without its surface, or evidence without its UIDs.
 Status CheckReport(const AnalysisReport& report, const std::vector<ObjectReference>& evidence);
 
 }  // namespace striae::dicom

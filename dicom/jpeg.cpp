@@ -1,7 +1,6 @@
 #include "dicom/jpeg.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -93,13 +92,10 @@ bool HasJfif(const std::vector<Segment>& segments) {
 }
 
 /// As libjpeg decides: JFIF is YCbCr; Adobe says it; else component ids "R", "G", "B" are RGB.
-JpegInfo::Colour ColourOf(const std::vector<Segment>& segments, Bytes frame) {
-  if (HasJfif(segments)) return JpegInfo::Colour::kYcc;
-  if (const auto transform = AdobeTransform(segments)) {
-    return *transform == 0 ? JpegInfo::Colour::kRgb : JpegInfo::Colour::kYcc;
-  }
-  const std::array<std::uint8_t, 3> ids{frame[6], frame[9], frame[12]};
-  return ids == std::array<std::uint8_t, 3>{'R', 'G', 'B'} ? JpegInfo::Colour::kRgb : JpegInfo::Colour::kYcc;
+bool IsRgb(const std::vector<Segment>& segments, Bytes frame) {
+  if (HasJfif(segments)) return false;
+  if (const auto transform = AdobeTransform(segments)) return *transform == 0;
+  return frame[6] == 'R' && frame[9] == 'G' && frame[12] == 'B';
 }
 
 }  // namespace
@@ -126,7 +122,10 @@ Result<JpegInfo> InspectJpeg(Bytes jpeg) {
   if (std::none_of(segments->begin(), segments->end(), [](const Segment& s) { return s.marker == kSos; })) {
     return Fail(ErrorCode::kBadImage, "the JPEG has no image data");
   }
-  info.colour = components == 1 ? JpegInfo::Colour::kGrey : ColourOf(*segments, header);
+  if (components == 3 && IsRgb(*segments, header)) {
+    return Fail(ErrorCode::kBadImage, "the JPEG holds RGB without a colour transform, which DICOM does not take");
+  }
+  info.colour = components == 1 ? JpegInfo::Colour::kGrey : JpegInfo::Colour::kYcc;
   return info;
 }
 

@@ -11,13 +11,13 @@
 namespace striae::dicom {
 
 struct JpegInfo {
-  enum class Colour { kGrey, kYcc, kRgb };
+  enum class Colour { kGrey, kYcc };
   int width_px = 0, height_px = 0;  ///< of the stored pixels, before any EXIF Orientation
   Colour colour = Colour::kYcc;
 };
 
-/// kBadImage with the reason for anything but a complete 8-bit baseline JPEG of one or three components: only that is
-/// the transfer syntax JPEG Baseline (Process 1).
+/// kBadImage with the reason for anything but a complete 8-bit baseline JPEG that is grey or YCbCr: only that can be a
+/// VL Photographic Image in the transfer syntax JPEG Baseline (Process 1) unchanged.
 Result<JpegInfo> InspectJpeg(std::span<const std::uint8_t> jpeg);
 
 /// The same file without APPn and COM segments and without anything after its end, so that nothing but pixels remains.

@@ -50,6 +50,9 @@ void PutMeasurement(SrTree& tree, const Measurement& measurement, const Measurem
   for (const Code& equivalent : measurement.equivalents) {
     tree.AddCode(kConceptMod, Dcm("121050", "Equivalent Meaning of Concept Name"), equivalent);
   }
+  if (measurement.name.ends_with("_max")) {
+    tree.AddCode(kConceptMod, Dcm("121401", "Derivation"), Sct("56851009", "Maximum"));
+  }
   // TID 4019 stands below each number: several numbers of one group may come to have different methods.
   tree.Text(kConceptMod, Dcm("111001", "Algorithm Name"), "Striae " + group.report.analysis + "/" + measurement.name)
       .Text(kConceptMod, Dcm("111003", "Algorithm Version"),
@@ -65,7 +68,18 @@ void PutMeasurement(SrTree& tree, const Measurement& measurement, const Measurem
   tree.Up();
 }
 
-/// TID 1501. A new analysis whose definitions need words puts them into details["definition"].
+/// Head angles have no public codes, so their definition stands in words; whose axes they are differs by subject.
+std::string HeadDefinition(const AnalysisReport& report) {
+  std::string text =
+      "R = R_torso^T R_head takes a head vector of the neutral pose to this one; angles in the sequence Z-X-Y; "
+      "rotation "
+      "positive to the subject's left, flexion positive chin towards chest, tilt positive to the subject's right";
+  const auto axes = report.details.find("axes_source");
+  if (axes != report.details.end() && axes->is_string()) text += "; axes: " + axes->get<std::string>();
+  return text;
+}
+
+/// TID 1501.
 void PutGroup(SrTree& tree, const SessionContext& context, const MeasurementGroup& group) {
   const std::string name = TrackingName(group.capture, group.report);
   tree.Container(Dcm("125007", "Measurement Group"), "1501");
@@ -83,10 +97,7 @@ void PutGroup(SrTree& tree, const SessionContext& context, const MeasurementGrou
   }
   for (const Measurement& measurement : group.report.measurements) PutMeasurement(tree, measurement, group);
   if (group.report.analysis == "head") {
-    tree.Text(kContains, Dcm("121106", "Comment"),
-              "Rotation R = R_torso^T R_head of the neutral capture's camera frame, resolved in the sequence Z-X-Y; "
-              "rotation positive to the subject's left, flexion positive chin towards chest, tilt positive to the "
-              "subject's right");
+    tree.Text(kContains, Dcm("121106", "Comment"), HeadDefinition(group.report));
   }
   tree.Up();
 }
@@ -122,9 +133,10 @@ Status WriteDocument(DcmDataset& dataset, const SessionContext& context, const s
   for (const MeasurementGroup& group : groups) {
     for (const ObjectReference& object : group.evidence) {
       if (!listed.insert(object.sop_instance_uid).second) continue;
-      done.push_back(document.getCurrentRequestedProcedureEvidence().addItem(
-          object.study_uid.c_str(), object.series_uid.c_str(), object.sop_class_uid.c_str(),
-          object.sop_instance_uid.c_str()));
+      auto& evidence = object.study_uid == StudyUid(context) ? document.getCurrentRequestedProcedureEvidence()
+                                                             : document.getPertinentOtherEvidence();
+      done.push_back(evidence.addItem(object.study_uid.c_str(), object.series_uid.c_str(), object.sop_class_uid.c_str(),
+                                      object.sop_instance_uid.c_str()));
     }
   }
   done.push_back(document.setContentDate(detail::DateText(at).c_str()));

@@ -17,7 +17,9 @@ struct MeasurementGroup {
   Capture capture;
   AnalysisReport report;
   UtcTime made_at;
-  std::vector<ObjectReference> evidence;  ///< at least the photograph; for a wound the surface, too
+  /// At least the photograph, which comes first; for a wound the surface, too. A neutral pose may be of an earlier
+  /// session: it then stands in Pertinent Other Evidence.
+  std::vector<ObjectReference> evidence;
 };
 
 /// Comprehensive 3D SR Storage (1.2.840.10008.5.1.4.1.1.88.34). Every number carries its standard uncertainty

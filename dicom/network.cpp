@@ -17,7 +17,8 @@ namespace {
 class RememberingScu : public DcmStorageSCU {
  public:
   struct Answer {
-    bool request_sent = false;
+    bool accepted = false;  ///< the PACS takes this kind of object in this transfer syntax
+    bool answered = false;
     std::uint16_t status = 0;
   };
   /// By SOP Instance UID.
@@ -25,7 +26,11 @@ class RememberingScu : public DcmStorageSCU {
 
  protected:
   void notifySOPInstanceSent(const TransferEntry& entry) override {
-    answers_[entry.SOPInstanceUID.c_str()] = {static_cast<bool>(entry.RequestSent), entry.ResponseStatusCode};
+    // What is not compressed may go in another uncompressed transfer syntax.
+    const auto context = entry.Uncompressed ? findAnyPresentationContextID(entry.SOPClassUID, entry.TransferSyntaxUID)
+                                            : findPresentationContextID(entry.SOPClassUID, entry.TransferSyntaxUID);
+    answers_[entry.SOPInstanceUID.c_str()] = {context != 0, static_cast<bool>(entry.RequestSent),
+                                              entry.ResponseStatusCode};
   }
 
  private:
@@ -46,7 +51,7 @@ Status CheckPeer(const Peer& peer) {
     if (!IsAet(aet)) return Fail(ErrorCode::kUsage, "AE title \"" + aet + "\" must have 1 to 16 ASCII characters");
   }
   if (peer.timeout_s < 1) return Fail(ErrorCode::kUsage, "the timeout must be at least one second");
-  return detail::RequireDictionary();
+  return detail::PrepareDcmtk();
 }
 
 void Address(DcmSCU& scu, const Peer& peer) {
@@ -109,10 +114,11 @@ Result<std::vector<SendOutcome>> Identify(const std::vector<std::filesystem::pat
 void Judge(SendOutcome& outcome, const std::map<std::string, RememberingScu::Answer>& answers,
            const std::string& broken) {
   const auto found = answers.find(outcome.sop_instance_uid);
-  if (found == answers.end() || !found->second.request_sent) {
-    outcome.worth_retrying = !broken.empty();
-    outcome.message = broken.empty() ? "the PACS does not accept this kind of object or its transfer syntax"
-                                     : "not sent or not answered: " + broken;
+  if (found == answers.end() || !found->second.answered) {
+    outcome.worth_retrying = found == answers.end() || found->second.accepted;
+    outcome.message = !outcome.worth_retrying ? "the PACS does not accept this kind of object or its transfer syntax"
+                      : broken.empty()        ? "the connection broke before it was answered"
+                                              : "the connection broke before it was answered: " + broken;
     return;
   }
   outcome.status = found->second.status;

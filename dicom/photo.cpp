@@ -56,14 +56,11 @@ std::string FacingOrientation(std::optional<int> orientation) {
   }
 }
 
-std::string SeriesDescription() { return "Photographs under flash-lit grating"; }
-
 void PutPixelDescription(DatasetWriter& out, const JpegInfo& info, std::size_t jpeg_bytes) {
   const bool grey = info.colour == JpegInfo::Colour::kGrey;
   out.PutUint16(DCM_SamplesPerPixel, grey ? 1 : 3);
   // YBR_FULL_422 is the one YCbCr name that the IOD allows for JPEG; decoders take the sampling from the stream.
-  out.Put(DCM_PhotometricInterpretation,
-          grey ? "MONOCHROME2" : (info.colour == JpegInfo::Colour::kRgb ? "RGB" : "YBR_FULL_422"));
+  out.Put(DCM_PhotometricInterpretation, grey ? "MONOCHROME2" : "YBR_FULL_422");
   if (!grey) out.PutUint16(DCM_PlanarConfiguration, 0);
   out.PutUint16(DCM_Rows, static_cast<std::uint16_t>(info.height_px));
   out.PutUint16(DCM_Columns, static_cast<std::uint16_t>(info.width_px));
@@ -143,7 +140,7 @@ Result<Object> EncodePhoto(const SessionContext& context, const Capture& capture
   const detail::Equipment camera{capture.metadata.make.empty() ? "unknown" : capture.metadata.make,
                                  capture.metadata.model.empty() ? context.device.model : capture.metadata.model,
                                  context.device.serial, ""};
-  detail::PutCommon(out, context, {PhotoSeriesUid(context), "XC", 1, SeriesDescription()}, camera,
+  detail::PutCommon(out, context, {PhotoSeriesUid(context), "XC", 1, "Photographs under flash-lit grating"}, camera,
                     UID_VLPhotographicImageStorage);
   PutImage(out, capture, number);
   PutAnatomy(out, capture);

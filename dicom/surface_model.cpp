@@ -27,8 +27,9 @@ std::string Millimetres(double value_mm) {
 
 std::string Faithfulness(const ThinnedSurface& thinned) {
   if (thinned.step == 1) return "full resolution";
-  return "every " + std::to_string(thinned.step) + ". pixel, deviation p95 " + Millimetres(thinned.deviation_p95_mm) +
-         ", max " + Millimetres(thinned.deviation_max_mm);
+  const std::string step = std::to_string(thinned.step);
+  return "1 pixel of " + step + "x" + step + ", deviation p95 " + Millimetres(thinned.deviation_p95_mm) + ", max " +
+         Millimetres(thinned.deviation_max_mm);
 }
 
 void PutReferences(DatasetWriter& out, const ObjectReference& photo) {
@@ -69,7 +70,8 @@ Result<Object> EncodeSurface(const SessionContext& context, const Capture& captu
   }
   DcmFileFormat file;
   DatasetWriter out(*file.getDataset());
-  const std::string what = capture.role.ToString() + ", " + Faithfulness(thinned);
+  // The deviation first: a Series Description has 64 characters, and a long label must not push it out.
+  const std::string what = Faithfulness(thinned) + "; " + capture.role.ToString();
   detail::PutCommon(out, context, {SurfaceSeriesUid(context, capture.id), "M3D", 2, what},
                     detail::StriaeEquipment(context, software_version), UID_EncapsulatedSTLStorage);
   out.Put(DCM_FrameOfReferenceUID, FrameOfReferenceUid(context, capture.id)).Put(DCM_PositionReferenceIndicator, "");

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -131,18 +130,22 @@ Surface Compact(const Surface& full, const std::vector<Triangle>& triangles) {
   return thin;
 }
 
-ThinnedSurface Finish(const Surface& full, Coarse coarse, int step) {
+ThinnedSurface Finish(const Surface& full, const Coarse& coarse, int step) {
   ThinnedSurface thinned;
   thinned.step = step;
-  std::vector<float> covered;
-  std::copy_if(coarse.deviation_mm.begin(), coarse.deviation_mm.end(), std::back_inserter(covered),
-               [](float d) { return !std::isnan(d); });
-  thinned.uncovered_share = 1.0 - static_cast<double>(covered.size()) / static_cast<double>(full.size());
-  if (!covered.empty()) {
-    const auto at95 = covered.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(covered.size() - 1));
-    std::nth_element(covered.begin(), at95, covered.end());
+  std::size_t covered = 0;
+  std::vector<float> left_out;
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    if (std::isnan(coarse.deviation_mm[i])) continue;
+    ++covered;
+    if (full.col[i] % step != 0 || full.row[i] % step != 0) left_out.push_back(coarse.deviation_mm[i]);
+  }
+  thinned.uncovered_share = 1.0 - static_cast<double>(covered) / static_cast<double>(full.size());
+  if (!left_out.empty()) {
+    const auto at95 = left_out.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(left_out.size() - 1));
+    std::nth_element(left_out.begin(), at95, left_out.end());
     thinned.deviation_p95_mm = *at95;
-    thinned.deviation_max_mm = *std::max_element(covered.begin(), covered.end());
+    thinned.deviation_max_mm = *std::max_element(at95, left_out.end());
   }
   thinned.surface = Compact(full, coarse.triangles);
   return thinned;
@@ -166,12 +169,12 @@ Result<ThinnedSurface> ThinSurface(const Surface& surface, std::size_t most_face
       static_cast<double>(surface.faces.size()) / static_cast<double>(std::max<std::size_t>(1, most_faces));
   // Bridged pixels can leave a few faces more than the ratio says: then the next step.
   for (int step = std::max(2, static_cast<int>(std::ceil(std::sqrt(ratio))));; ++step) {
-    Coarse coarse = MeshCoarsely(surface, index, step);
+    const Coarse coarse = MeshCoarsely(surface, index, step);
     if (coarse.triangles.empty()) {
       return Fail(ErrorCode::kMeasurementRefused,
                   "the surface is too ragged to be thinned to " + std::to_string(most_faces) + " faces");
     }
-    if (coarse.triangles.size() <= most_faces) return Finish(surface, std::move(coarse), step);
+    if (coarse.triangles.size() <= most_faces) return Finish(surface, coarse, step);
   }
 }
 

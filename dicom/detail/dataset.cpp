@@ -3,6 +3,8 @@
 #include <array>
 #include <charconv>
 
+#include <dcmtk/oflog/oflog.h>
+
 namespace striae::dicom::detail {
 
 void DatasetWriter::Keep(const OFCondition& condition, const DcmTagKey& tag) {
@@ -95,7 +97,12 @@ std::string DecimalText(double value) {
   return {buffer.data(), end};
 }
 
-Status RequireDictionary() {
+Status PrepareDcmtk() {
+  static const bool quiet = [] {
+    OFLog::configure(OFLogger::OFF_LOG_LEVEL);
+    return true;
+  }();
+  static_cast<void>(quiet);
   if (dcmDataDict.isDictionaryLoaded()) return {};
   return Fail(
       ErrorCode::kInternal,

@@ -67,7 +67,8 @@ std::string TimeText(UtcTime time);
 /// A decimal string (DS): at most 16 characters, as many digits as fit, always with a decimal point.
 std::string DecimalText(double value);
 
-/// The data dictionary must be there, or DCMTK writes unknown value representations without a word.
-Status RequireDictionary();
+/// To be called before DCMTK is used: its data dictionary must be there, or it writes unknown value representations
+/// without a word. Also silences its logger: what fails comes back as a condition and is said once, by Striae.
+Status PrepareDcmtk();
 
 }  // namespace striae::dicom::detail

@@ -51,7 +51,7 @@ Equipment StriaeEquipment(const SessionContext& context, const std::string& soft
 }
 
 Status CheckContext(const SessionContext& context) {
-  if (auto dictionary = RequireDictionary(); !dictionary) return dictionary;
+  if (auto dictionary = PrepareDcmtk(); !dictionary) return dictionary;
   const std::string& pseudonym = context.subject.pseudonym;
   if (pseudonym.empty() || pseudonym.size() > 64 || CleanText(pseudonym, 64) != pseudonym ||
       pseudonym.find_first_of("^=") != std::string::npos) {
