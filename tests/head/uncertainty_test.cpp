@@ -62,12 +62,16 @@ TEST(Bootstrap, AgreesWithTheSpreadOfRepeatedNoise) {
     squares += m.ldlt().solve(b).head<3>().squaredNorm();
   }
   const double true_sd = std::sqrt(squares / repeats);
-  const auto samples = BootstrapRotations(PairsOn(Bumps, noise_mm, 999), 20, 400, 1);
-  ASSERT_EQ(samples.size(), 400U);
   double sample_squares = 0;
-  for (const auto& sample : samples) sample_squares += sample.squaredNorm();
-  // 25 to 36 cells: the bootstrap's own spread is about 15 %, its bias with so few cells as much again.
-  EXPECT_NEAR(std::sqrt(sample_squares / 400) / true_sd, 1, 0.35);
+  const int patches = 20, resamples = 100;
+  for (std::uint32_t seed = 1000; seed < 1000 + patches; ++seed) {
+    const auto samples = BootstrapRotations(PairsOn(Bumps, noise_mm, seed), 20, resamples, 1);
+    ASSERT_EQ(samples.size(), static_cast<std::size_t>(resamples));
+    for (const auto& sample : samples) sample_squares += sample.squaredNorm();
+  }
+  // The true sd is known to 3 %, the mean of 20 patches to 5 %; some 30 cells of uneven filling, of which a resample
+  // may miss the outermost, make the bootstrap a little wide.
+  EXPECT_NEAR(std::sqrt(sample_squares / (patches * resamples)) / true_sd, 1.05, 0.2);
 }
 
 TEST(Bootstrap, SameSeedSameSamples) {

@@ -56,9 +56,9 @@ std::vector<Eigen::Vector3d> BootstrapRotations(std::span<const Pair> pairs, dou
   const Eigen::Vector3d middle = Middle(pairs);
   std::map<std::array<int, 3>, Equations> by_cell;
   for (const Pair& pair : pairs) {
-    std::array<int, 3> key{};
+    std::array<int, 3> key{};  // by the target: the residual must not choose its own cell
     for (int k = 0; k < 3; ++k)
-      key[static_cast<std::size_t>(k)] = static_cast<int>(std::floor(pair.moved[k] / cell_mm));
+      key[static_cast<std::size_t>(k)] = static_cast<int>(std::floor(pair.target[k] / cell_mm));
     Add(pair, middle, by_cell[key]);
   }
   if (by_cell.size() < kLeastCells) return {};
