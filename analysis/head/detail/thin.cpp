@@ -9,13 +9,14 @@
 namespace striae::head::detail {
 namespace {
 
-/// Median distance between neighbours along rows, mm; 0 without neighbours.
+/// Median distance across the optical axis between neighbours along rows, mm; 0 without neighbours. Distances in space
+/// would grow with the noise along the rays.
 double Spacing(const Surface& s) {
   std::vector<float> distances;
   const std::size_t step = std::max<std::size_t>(1, s.size() / 20000);
   for (std::size_t i = 0; i + 1 < s.size(); i += step) {
     if (s.row[i] == s.row[i + 1] && s.col[i] + 1 == s.col[i + 1]) {
-      distances.push_back((s.point_in_camera[i] - s.point_in_camera[i + 1]).norm());
+      distances.push_back((s.point_in_camera[i] - s.point_in_camera[i + 1]).head<2>().norm());
     }
   }
   if (distances.empty()) return 0;
