@@ -17,7 +17,8 @@ void AppendCases(const CLI::App& command, const std::string& path, std::ostream&
   }
   out << "\" ;;\n";
   for (const CLI::App* sub : command.get_subcommands([](const CLI::App*) { return true; })) {
-    if (!sub->get_group().empty()) AppendCases(*sub, path.empty() ? sub->get_name() : path + " " + sub->get_name(), out);
+    if (!sub->get_group().empty())
+      AppendCases(*sub, path.empty() ? sub->get_name() : path + " " + sub->get_name(), out);
   }
 }
 

@@ -1,0 +1,311 @@
+#include "app/pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "analysis/head/measure.h"
+#include "analysis/wound/wound.h"
+#include "app/io/files.h"
+#include "app/io/photograph.h"
+#include "app/io/preview.h"
+#include "app/study.h"
+#include "core/ply.h"
+#include "reconstruct/reconstruct.h"
+
+namespace striae::app {
+namespace {
+
+using store::Derived;
+using store::Outcome;
+using store::Record;
+using store::WorkItem;
+
+constexpr const char* kSurfaceKind = "surface";
+
+/// A surface with its place in the record.
+struct KeptSurface {
+  Surface surface;
+  Sha256 sha256;
+};
+
+std::string AnalysisOf(const CaptureRole& role) {
+  switch (role.kind) {
+    case CaptureRole::Kind::kWound:
+      return "wound";
+    case CaptureRole::Kind::kPose:
+      return "head";
+    default:
+      return kSurfaceKind;
+  }
+}
+
+/// What a result depends on besides the software: compared before any work is done again.
+std::vector<ProvenanceInput> SourcesOf(const WorkItem& item) {
+  std::vector<ProvenanceInput> inputs = {{"photograph", item.capture.sha256}};
+  if (item.calibration) inputs.push_back({"calibration", item.calibration->sha256});
+  return inputs;
+}
+
+bool SameSources(const Provenance& provenance, const std::vector<ProvenanceInput>& sources) {
+  if (provenance.version != StriaeVersion()) return false;
+  const auto holds = [&](const ProvenanceInput& wanted) {
+    return std::any_of(provenance.inputs.begin(), provenance.inputs.end(), [&](const ProvenanceInput& input) {
+      return input.name == wanted.name && input.sha256 == wanted.sha256;
+    });
+  };
+  return std::all_of(sources.begin(), sources.end(), holds);
+}
+
+Provenance NewProvenance(std::vector<ProvenanceInput> inputs) {
+  Provenance provenance;
+  provenance.version = std::string(StriaeVersion());
+  provenance.inputs = std::move(inputs);
+  return provenance;
+}
+
+/// The surface that the record holds for exactly these sources, or nothing.
+Result<std::optional<KeptSurface>> FindSurface(Record& record, const WorkItem& item) {
+  const auto derived = record.LatestDerived(item.capture.id, kSurfaceKind);
+  if (!derived) return Fail(derived.error());
+  if (!*derived || !SameSources((*derived)->provenance, SourcesOf(item))) return std::optional<KeptSurface>();
+  const auto bytes = record.ReadDerived(**derived);
+  if (!bytes) return Fail(bytes.error());
+  auto surface = DecodePly(*bytes);
+  if (!surface) return Fail(surface.error(), "the surface kept for " + item.capture.file_name);
+  return std::optional(KeptSurface{*std::move(surface), (*derived)->sha256});
+}
+
+Status Keep(Record& record, const WorkItem& item, const std::string& kind, const std::string& media_type,
+            const Provenance& provenance, const std::vector<std::uint8_t>& bytes) {
+  Derived derived;
+  derived.capture = item.capture.id;
+  derived.kind = kind;
+  derived.media_type = media_type;
+  derived.provenance = provenance;
+  const auto kept = record.AddDerived(derived, bytes, NewStamp());
+  return kept ? Status{} : Fail(kept.error());
+}
+
+Status KeepPreviews(Record& record, const WorkItem& item, const Provenance& provenance, const Photograph& photograph,
+                    const Surface& surface) {
+  const auto photo = PhotographPreview(photograph.colour);
+  const auto depth = DepthPreview(surface);
+  const auto shaded = ShadedPreview(surface);
+  const struct {
+    const char* kind;
+    const Result<std::vector<std::uint8_t>>& png;
+  } pictures[] = {{"preview-photo", photo}, {"preview-depth", depth}, {"preview-shaded", shaded}};
+  for (const auto& [kind, png] : pictures) {
+    if (!png) return Fail(png.error());
+    if (Status kept = Keep(record, item, kind, "image/png", provenance, *png); !kept) return kept;
+  }
+  return {};
+}
+
+/// Photograph and calibration from the record -> surface and previews into the record.
+Result<KeptSurface> MakeSurface(Record& record, const WorkItem& item) {
+  if (!item.calibration) return Fail(ErrorCode::kCalibrationMismatch, item.missing);
+  const auto photo_bytes = record.objects().Get(item.capture.sha256);
+  if (!photo_bytes) return Fail(photo_bytes.error());
+  const auto calibration_bytes = record.objects().Get(item.calibration->sha256);
+  if (!calibration_bytes) return Fail(calibration_bytes.error());
+  const auto calibration =
+      CalibrationFromJson({reinterpret_cast<const char*>(calibration_bytes->data()), calibration_bytes->size()});
+  if (!calibration) return Fail(calibration.error());
+  const auto photograph = DecodePhotograph(*photo_bytes);
+  if (!photograph) return Fail(photograph.error());
+  auto reconstruction = reconstruct::Reconstruct(*photograph, *calibration, {});
+  if (!reconstruction) return Fail(reconstruction.error());
+
+  const Provenance provenance = NewProvenance(SourcesOf(item));
+  const std::vector<std::uint8_t> ply = EncodePly(reconstruction->surface);
+  if (Status kept = Keep(record, item, kSurfaceKind, "application/ply", provenance, ply); !kept) {
+    return Fail(kept.error());
+  }
+  if (Status kept = KeepPreviews(record, item, provenance, *photograph, reconstruction->surface); !kept) {
+    return Fail(kept.error());
+  }
+  return KeptSurface{std::move(reconstruction->surface), HashOf(ply)};
+}
+
+Result<KeptSurface> SurfaceOf(Record& record, const WorkItem& item) {
+  auto found = FindSurface(record, item);
+  if (!found) return Fail(found.error());
+  if (*found) return **std::move(found);
+  return MakeSurface(record, item);
+}
+
+/// The neutral pose that a pose is measured against: the newest of the same session, else of the subject's latest
+/// session before it.
+const WorkItem* NeutralFor(const WorkItem& pose, const std::vector<WorkItem>& all) {
+  const WorkItem* best = nullptr;
+  const auto rank = [&](const WorkItem& item) {
+    return std::tuple(item.session.id == pose.session.id, item.session.opened_at, item.capture.imported_at);
+  };
+  for (const WorkItem& item : all) {
+    if (item.capture.role.kind != CaptureRole::Kind::kNeutral || item.subject.id != pose.subject.id) continue;
+    if (item.session.opened_at > pose.session.opened_at) continue;
+    if (best == nullptr || rank(item) > rank(*best)) best = &item;
+  }
+  return best;
+}
+
+/// An error of the record or the disk, which ends the whole run; anything else is an outcome of the one capture.
+bool EndsTheRun(const Error& error) {
+  return error.code == ErrorCode::kIo || error.code == ErrorCode::kRecordDamaged || error.code == ErrorCode::kInternal;
+}
+
+std::string Summary(const AnalysisReport& report) {
+  std::string text;
+  for (const char* name : {"volume", "area", "depth_max", "rotation", "flexion", "tilt"}) {
+    const Measurement* m = report.Find(name);
+    if (m == nullptr) continue;
+    const char* flag = m->status == Measurement::Status::kFlagged ? " (flagged)" : "";
+    text += fmt::format("{}{} {:.2f} +- {:.2f} {}{}", text.empty() ? "" : ", ", m->name, m->value, m->uncertainty,
+                        m->unit, flag);
+  }
+  return text;
+}
+
+/// Works through one study's captures; each outcome goes into the record as soon as it is known.
+class Run {
+ public:
+  Run(Record& record, std::vector<WorkItem> all) : record_(record), all_(std::move(all)) {}
+
+  Result<Processed> Process(const WorkItem& item) {
+    Processed processed{Processed::State::kFailed, item.capture, AnalysisOf(item.capture.role), {}};
+    auto sources = SourcesOf(item);
+    const WorkItem* neutral = nullptr;
+    if (processed.analysis == "wound") {
+      if (!item.outline) return Waiting(processed, "no outline yet; add it with: striae outline CAPTURE outline.json");
+      sources.push_back({"outline", item.outline->sha256});
+    } else if (processed.analysis == "head") {
+      neutral = NeutralFor(item, all_);
+      if (neutral == nullptr) {
+        return Waiting(processed, "no neutral pose of this subject yet; import it with: striae import --as neutral");
+      }
+      sources.push_back({"neutral photograph", neutral->capture.sha256});
+    }
+    if (const Outcome* known = InForce(item, processed.analysis);
+        known && SameSources(known->report.provenance, sources)) {
+      processed.state = known->failure ? Processed::State::kFailed : Processed::State::kUpToDate;
+      processed.text = known->failure ? known->failure->Describe() : Summary(known->report);
+      return processed;
+    }
+    return Measure(item, neutral, sources, processed);
+  }
+
+ private:
+  static Processed Waiting(Processed processed, const std::string& why) {
+    processed.state = Processed::State::kWaiting;
+    processed.text = why;
+    return processed;
+  }
+
+  static const Outcome* InForce(const WorkItem& item, const std::string& analysis) {
+    for (const Outcome& outcome : item.outcomes) {
+      if (outcome.analysis == analysis) return &outcome;
+    }
+    return nullptr;
+  }
+
+  Result<Processed> Measure(const WorkItem& item, const WorkItem* neutral, const std::vector<ProvenanceInput>& sources,
+                            Processed processed) {
+    auto surface = SurfaceOf(record_, item);
+    if (!surface) return Failed(item, sources, surface.error(), processed);
+    if (processed.analysis == kSurfaceKind) {
+      processed.state = Processed::State::kSurfaceOnly;
+      processed.text = fmt::format("surface of {} points", surface->surface.size());
+      return processed;
+    }
+    auto inputs = sources;
+    inputs.push_back({"surface", surface->sha256});
+    auto report = neutral == nullptr ? wound::Measure(surface->surface, item.outline->outline)
+                                     : MeasureHead(*neutral, surface->surface, inputs);
+    if (!report) return Failed(item, sources, report.error(), processed);
+    report->provenance.version = std::string(StriaeVersion());
+    report->provenance.inputs = inputs;
+    const auto added = record_.AddReport(NewId<ReportId>(), item.capture.id, *report, NewStamp());
+    if (!added) return Fail(added.error());
+    processed.state = Processed::State::kMeasured;
+    processed.text = Summary(*report);
+    return processed;
+  }
+
+  Result<AnalysisReport> MeasureHead(const WorkItem& neutral, const Surface& pose,
+                                     std::vector<ProvenanceInput>& inputs) {
+    const auto surface = SurfaceOf(record_, neutral);
+    if (!surface) return Fail(surface.error(), "the neutral pose " + neutral.capture.file_name);
+    inputs.push_back({"neutral surface", surface->sha256});
+    return head::Measure(surface->surface, pose);
+  }
+
+  Result<Processed> Failed(const WorkItem& item, const std::vector<ProvenanceInput>& sources, const Error& error,
+                           Processed processed) {
+    if (EndsTheRun(error)) return Fail(error);
+    AnalysisReport report;
+    report.analysis = processed.analysis;
+    report.version = "0";
+    report.provenance = NewProvenance(sources);
+    const auto added = record_.AddFailure(NewId<ReportId>(), item.capture.id, report, error, NewStamp());
+    if (!added) return Fail(added.error());
+    processed.text = error.Describe();
+    return processed;
+  }
+
+  Record& record_;
+  std::vector<WorkItem> all_;
+};
+
+std::string_view ToString(Processed::State state) {
+  switch (state) {
+    case Processed::State::kMeasured:
+      return "measured";
+    case Processed::State::kSurfaceOnly:
+      return "surface";
+    case Processed::State::kUpToDate:
+      return "up-to-date";
+    case Processed::State::kWaiting:
+      return "waiting";
+    case Processed::State::kFailed:
+      break;
+  }
+  return "failed";
+}
+
+}  // namespace
+
+Result<std::vector<Processed>> ProcessCaptures(Record& record, std::optional<SessionId> session,
+                                               const Progress& progress) {
+  auto wanted = record.Work(session);
+  if (!wanted) return Fail(wanted.error());
+  auto all = record.Work();
+  if (!all) return Fail(all.error());
+  std::stable_partition(wanted->begin(), wanted->end(),
+                        [](const WorkItem& item) { return item.capture.role.kind == CaptureRole::Kind::kNeutral; });
+  Run run(record, *std::move(all));
+  std::vector<Processed> done;
+  for (const WorkItem& item : *wanted) {
+    progress(done.size(), wanted->size(), item.capture);
+    auto processed = run.Process(item);
+    if (!processed) return Fail(processed.error(), "processing " + item.capture.file_name);
+    done.push_back(*std::move(processed));
+  }
+  return done;
+}
+
+std::string Describe(const Processed& processed) {
+  return fmt::format("{:<10} {:<12} {} {}: {}", ToString(processed.state), processed.capture.role.ToString(),
+                     processed.capture.file_name, processed.capture.id.ToString().substr(0, 8), processed.text);
+}
+
+nlohmann::json ToJson(const Processed& processed) {
+  return {{"capture", processed.capture.id.ToString()}, {"file", processed.capture.file_name},
+          {"role", processed.capture.role.ToString()},  {"analysis", processed.analysis},
+          {"state", ToString(processed.state)},         {"text", processed.text}};
+}
+
+}  // namespace striae::app

@@ -1,0 +1,36 @@
+// Splits lines of an image over the cores. Each line is computed alone, so results do not depend on their number.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace striae::reconstruct::detail {
+
+inline int ThreadCount() { return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U)); }
+
+/// Calls body(thread, first, last) for blocks of [0, count); `thread` < ThreadCount() is for scratch memory.
+template <typename Body>
+void ParallelBlocks(int count, const Body& body, int block = 32) {
+  std::atomic<int> next{0};
+  const auto work = [&](int thread) {
+    for (int first = next.fetch_add(block); first < count; first = next.fetch_add(block)) {
+      body(thread, first, std::min(count, first + block));
+    }
+  };
+  std::vector<std::thread> others;
+  for (int thread = 1; thread < ThreadCount(); ++thread) others.emplace_back(work, thread);
+  work(0);
+  for (std::thread& other : others) other.join();
+}
+
+/// Calls body(line) for every line.
+template <typename Body>
+void ParallelLines(int count, const Body& body) {
+  ParallelBlocks(count, [&](int, int first, int last) {
+    for (int line = first; line < last; ++line) body(line);
+  });
+}
+
+}  // namespace striae::reconstruct::detail

@@ -1,0 +1,48 @@
+// The whole number of stripes that unwrapping leaves open, for each region (OPTICS "Absolute stripe order").
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/calibration.h"
+#include "reconstruct/phase.h"
+
+namespace striae::reconstruct {
+
+enum class OrderSource { kGratingEdge, kTarget, kDistance, kBridge, kNone };
+/// CONTRACT's words: "grating-edge", "target", "distance", "bridge", "none".
+std::string_view ToString(OrderSource source);
+
+/// One end of the stripe field, seen on one region.
+struct GratingEdge {
+  double order = 0;    ///< relative order (phase / 2 pi) where the carrier falls to half of its plateau, median
+  double scatter = 0;  ///< robust sd of it along the edge, stripes
+  int lines = 0;       ///< lines across the stripes that show it
+  double share = 0;    ///< of the region's lines
+};
+
+struct RegionEdges {
+  std::optional<GratingEdge> low, high;  ///< at the small and the large orders
+};
+
+/// Looks along every line of each of the first `regions` regions for the place where only the stripes end: the carrier
+/// falls to half of its plateau while the surface itself, lit by the room or by the mask's scattered light, goes on. An
+/// end is kept when the order along it is constant (sd < 0.13 stripe) over many lines; a subject's own border scatters
+/// by stripes.
+std::vector<RegionEdges> FindGratingEdges(const PhaseResult& phase, int regions);
+
+struct RegionOrder {
+  std::size_t points = 0;
+  OrderSource source = OrderSource::kNone;
+  int offset = 0;     ///< whole stripes to add to phase / 2 pi
+  double margin = 0;  ///< how much nearer the chosen whole number is than the next one: 1 = certain, 0 = a coin's toss
+  std::string warning;  ///< what is doubtful and what to do; empty when nothing is
+};
+
+/// One entry for each region, largest first. `distance_mm` is the expected distance (rig nominal or EXIF).
+/// Every region first asks its own grating edge, then the distance if that is unambiguous within the working range,
+/// then the nearest anchored region (the offset that continues its depth).
+std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibration& calibration, double distance_mm);
+
+}  // namespace striae::reconstruct

@@ -1,0 +1,144 @@
+#include "reconstruct/phase.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reconstruct/detail/fourier.h"
+#include "reconstruct/detail/mask.h"
+#include "reconstruct/detail/transpose.h"
+
+namespace striae::reconstruct {
+namespace {
+
+using detail::AnalyticSignal;
+using detail::Carrier;
+using detail::ParallelLines;
+using detail::Transposed;
+
+/// Second differences of the phase beyond this (rad) are a step: a smooth surface stays below a tenth of it.
+constexpr float kStep_rad = 0.7F;
+
+/// sRGB's decoding (IEC 61966-2-1): the stripes' shading multiplies light, not its encoding.
+class Linearisation {
+ public:
+  Linearisation() {
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      const double v = static_cast<double>(i) / kCells;
+      table_[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    }
+  }
+  float operator()(float encoded) const {
+    const float x = std::clamp(encoded, 0.0F, 1.0F) * kCells;
+    const auto cell = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kCells - 1));
+    return table_[cell] + (x - static_cast<float>(cell)) * (table_[cell + 1] - table_[cell]);
+  }
+
+ private:
+  static constexpr int kCells = 4096;
+  std::array<float, kCells + 1> table_{};
+};
+
+ImageF LinearLight(const ImageF& encoded) {
+  static const Linearisation linear;
+  ImageF out(encoded.width(), encoded.height());
+  ParallelLines(encoded.height(), [&](int row) {
+    const float* in = encoded.Row(row);
+    float* to = out.Row(row);
+    for (int x = 0; x < encoded.width(); ++x) to[x] = linear(in[x]);
+  });
+  return out;
+}
+
+struct Chosen {
+  StripeDirection direction;
+  Carrier carrier;
+  ImageF lines;  ///< across the stripes
+};
+
+Result<Chosen> ChooseDirection(const ImageF& light, std::optional<StripeDirection> wanted) {
+  ImageF transposed = Transposed(light);
+  const auto down = detail::FindCarrier(transposed), along = detail::FindCarrier(light);
+  const auto none = [] {
+    return Fail(ErrorCode::kNoCarrier,
+                "no stripes are found in this photograph; check that the flash fired through the grating and that the "
+                "subject is in focus and within the measuring range");
+  };
+  const double down_prominence = down ? down->prominence : 0, along_prominence = along ? along->prominence : 0;
+  const bool horizontal = wanted ? *wanted == StripeDirection::kHorizontal : down_prominence >= along_prominence;
+  if (!(horizontal ? down : along)) return none();
+  if (horizontal) return Chosen{StripeDirection::kHorizontal, *down, std::move(transposed)};
+  return Chosen{StripeDirection::kVertical, *along, light};
+}
+
+Mask MaskOf(const AnalyticSignal& signal, double period_px, const PhaseOptions& options) {
+  const ImageF plateau = detail::LineMaximum(signal.amplitude, static_cast<int>(std::lround(1.5 * period_px)));
+  const int width = signal.amplitude.width(), height = signal.amplitude.height();
+  Mask mask(width, height, 0);
+  const auto share = static_cast<float>(options.least_plateau_share);
+  const auto modulation = static_cast<float>(options.least_modulation);
+  const auto least = static_cast<float>(std::max(signal.noise / options.largest_phase_noise, 1e-5));
+  ParallelLines(height, [&](int line) {
+    const float *amplitude = signal.amplitude.Row(line), *background = signal.background.Row(line),
+                *top = plateau.Row(line);
+    std::uint8_t* m = mask.Row(line);
+    for (int x = 0; x < width; ++x) {
+      m[x] = amplitude[x] > least && amplitude[x] > share * top[x] && amplitude[x] > modulation * background[x] ? 1 : 0;
+    }
+  });
+  return mask;
+}
+
+double SaturatedShare(const Photograph& photograph) {
+  const auto& pixels = photograph.luminance.pixels();
+  const auto saturated =
+      std::count_if(pixels.begin(), pixels.end(), [&](float v) { return v >= photograph.saturation_level; });
+  return static_cast<double>(saturated) / static_cast<double>(pixels.size());
+}
+
+}  // namespace
+
+Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOptions& options) {
+  constexpr int kSmallest_px = 32;
+  const int width = photograph.luminance.width(), height = photograph.luminance.height();
+  if (width < kSmallest_px || height < kSmallest_px) {
+    return Fail(ErrorCode::kBadImage, "the photograph is only " + std::to_string(width) + " x " +
+                                          std::to_string(height) + " pixels; at least 32 x 32 are needed");
+  }
+  auto chosen = ChooseDirection(LinearLight(photograph.luminance), options.direction);
+  if (!chosen) return Fail(chosen.error());
+  const bool horizontal = chosen->direction == StripeDirection::kHorizontal;
+
+  PhaseResult result;
+  result.direction = chosen->direction;
+  result.carrier_period_px = chosen->carrier.period_px;
+  result.carrier_prominence = chosen->carrier.prominence;
+  result.saturated_share = SaturatedShare(photograph);
+  AnalyticSignal signal = detail::AnalyseLines(chosen->lines, result.carrier_period_px, options.window_half_width);
+  chosen->lines = {};
+  result.noise = signal.noise;
+  Mask mask = MaskOf(signal, result.carrier_period_px, options);
+  result.mask = horizontal ? Transposed(mask) : std::move(mask);
+  result.amplitude = horizontal ? Transposed(signal.amplitude) : std::move(signal.amplitude);
+  result.background = horizontal ? Transposed(signal.background) : std::move(signal.background);
+  const ImageF wrapped = horizontal ? Transposed(signal.phase) : std::move(signal.phase);
+  signal = {};
+
+  detail::CutSteps(wrapped, result.mask, kStep_rad);
+  detail::CleanMask(result.mask, options.least_region_px);
+  if (std::none_of(result.mask.pixels().begin(), result.mask.pixels().end(), [](std::uint8_t m) { return m != 0; })) {
+    return Fail(ErrorCode::kNoCarrier,
+                "the stripes are too faint everywhere to carry phase; check flash, ISO and distance");
+  }
+  result.modulation = ImageF(width, height);
+  ParallelLines(height, [&](int row) {
+    for (int x = 0; x < width; ++x) {
+      const float background = std::max(result.background(x, row), 1e-6F);
+      result.modulation(x, row) = std::clamp(result.amplitude(x, row) / background, 0.0F, 1.0F);
+    }
+  });
+  result.unwrapped = Unwrap(wrapped, result.mask);
+  return result;
+}
+
+}  // namespace striae::reconstruct

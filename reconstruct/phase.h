@@ -1,0 +1,42 @@
+// From a photograph under stripes to its unwrapped phase. Needs no calibration: any fringe photograph will do.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/calibration.h"
+#include "core/image.h"
+#include "core/result.h"
+#include "reconstruct/unwrap.h"
+
+namespace striae::reconstruct {
+
+struct PhaseOptions {
+  std::optional<StripeDirection> direction;  ///< found when not given
+  /// Half width of the Hann window over the carrier's frequency. Wider keeps edges, narrower removes noise.
+  double window_half_width = 0.7;
+  /// Least amplitude against the local plateau (three periods along the line): at half of it, a silhouette's edge.
+  double least_plateau_share = 0.5;
+  double least_modulation = 0.08;     ///< amplitude over background
+  double largest_phase_noise = 0.35;  ///< rad, standard deviation expected from the sensor's noise
+  int least_region_px = 400;          ///< smaller specks are dropped
+};
+
+struct PhaseResult {
+  StripeDirection direction = StripeDirection::kHorizontal;
+  double carrier_period_px = 0, carrier_prominence = 0;
+  /// All of the photograph's size, sensor orientation.
+  Unwrapped unwrapped;  ///< increases with the row (horizontal stripes) or the column (vertical)
+  ImageF amplitude;     ///< of the fundamental, linear light, full scale 1
+  ImageF modulation;    ///< amplitude over background, 0..1
+  ImageF background;    ///< local mean, linear light
+  Mask mask;
+  double noise = 0;            ///< sd of the amplitude's components; phase noise (rad) = noise / amplitude
+  double saturated_share = 0;  ///< of the pixels
+};
+
+/// kBadImage for a photograph too small, kNoCarrier when no stripes are found or none are bright enough to carry phase.
+Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOptions& options = {});
+
+}  // namespace striae::reconstruct

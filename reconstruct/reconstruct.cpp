@@ -1,0 +1,134 @@
+#include "reconstruct/reconstruct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "reconstruct/detail/parallel.h"
+#include "reconstruct/detail/surface_builder.h"
+
+namespace striae::reconstruct {
+namespace {
+
+/// Times the stages when there is a clock.
+class Stages {
+ public:
+  Stages(Clock clock, std::vector<std::pair<std::string, double>>& seconds)
+      : clock_(clock), seconds_(seconds), since_(clock != nullptr ? clock() : 0) {}
+  void Done(const char* stage) {
+    if (clock_ == nullptr) return;
+    const double now = clock_();
+    seconds_.emplace_back(stage, now - since_);
+    since_ = now;
+  }
+
+ private:
+  Clock clock_;
+  std::vector<std::pair<std::string, double>>& seconds_;
+  double since_;
+};
+
+Status CheckFit(const Photograph& photograph, const Calibration& calibration) {
+  const int width = photograph.luminance.width(), height = photograph.luminance.height();
+  if (width == calibration.image_width_px && height == calibration.image_height_px) return {};
+  return Fail(ErrorCode::kCalibrationMismatch, "the photograph has " + std::to_string(width) + " x " +
+                                                   std::to_string(height) + " pixels, the calibration is for " +
+                                                   std::to_string(calibration.image_width_px) + " x " +
+                                                   std::to_string(calibration.image_height_px) +
+                                                   "; use the full-size original, and the calibration of this camera");
+}
+
+/// Absolute order of every pixel; NaN outside the mask, in regions without an order, and beyond the grating's light.
+ImageF AbsoluteOrder(const PhaseResult& phase, const std::vector<RegionOrder>& regions,
+                     const Calibration& calibration) {
+  constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
+  constexpr float kEnd = 0.4F;  // light ends at -0.25; up to here the filtered phase still follows it
+  const float lowest = calibration.stripes ? -kEnd : -std::numeric_limits<float>::infinity();
+  const float highest = calibration.stripes ? static_cast<float>(*calibration.stripes) - 1 + kEnd
+                                            : std::numeric_limits<float>::infinity();
+  ImageF order(phase.mask.width(), phase.mask.height(), std::numeric_limits<float>::quiet_NaN());
+  detail::ParallelLines(order.height(), [&](int row) {
+    for (int col = 0; col < order.width(); ++col) {
+      const int region = phase.unwrapped.region(col, row);
+      if (region < 0 || regions[static_cast<std::size_t>(region)].source == OrderSource::kNone) continue;
+      const float n = phase.unwrapped.phase(col, row) / kTwoPi +
+                      static_cast<float>(regions[static_cast<std::size_t>(region)].offset);
+      if (n >= lowest && n <= highest) order(col, row) = n;
+    }
+  });
+  return order;
+}
+
+/// The lit field: pixels whose local mean is well above the scene's dark and that the carrier reaches at all.
+double Coverage(const PhaseResult& phase, std::size_t points) {
+  constexpr float kLitModulation = 0.05F;
+  std::vector<float> amplitudes;
+  for (std::size_t i = 0; i < phase.mask.size(); i += 31) {
+    if (phase.mask.pixels()[i] != 0) amplitudes.push_back(phase.amplitude.pixels()[i]);
+  }
+  if (amplitudes.empty()) return 0;
+  const auto middle = amplitudes.begin() + static_cast<long>(amplitudes.size() / 2);
+  std::nth_element(amplitudes.begin(), middle, amplitudes.end());
+  const float lit = 0.1F * *middle;
+  std::size_t field = 0;
+  for (std::size_t i = 0; i < phase.mask.size(); ++i) {
+    field += phase.amplitude.pixels()[i] > lit && phase.modulation.pixels()[i] > kLitModulation ? 1 : 0;
+  }
+  return std::min(1.0, static_cast<double>(points) / static_cast<double>(std::max<std::size_t>(1, field)));
+}
+
+void CollectWarnings(const PhaseResult& phase, Reconstruction& out) {
+  constexpr double kSaturated = 0.002, kNoteworthy = 0.02;
+  if (phase.saturated_share > kSaturated) {
+    out.warnings.push_back(std::to_string(100 * phase.saturated_share).substr(0, 4) +
+                           " % of the photograph is saturated and carries no phase; lower the ISO");
+  }
+  std::size_t all = 0;
+  for (const RegionOrder& region : out.regions) all += region.points;
+  for (const RegionOrder& region : out.regions) {
+    if (region.warning.empty() || static_cast<double>(region.points) < kNoteworthy * static_cast<double>(all)) continue;
+    out.warnings.push_back("region of " + std::to_string(region.points) + " pixels: " + region.warning);
+  }
+}
+
+}  // namespace
+
+Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibration& calibration,
+                                   const ReconstructOptions& options, Clock clock) {
+  if (const Status fit = CheckFit(photograph, calibration); !fit) return Fail(fit.error());
+  Reconstruction out;
+  Stages stages(clock, out.seconds);
+  PhaseOptions phase_options = options.phase;
+  phase_options.direction = calibration.direction;
+  const auto phase = MeasurePhase(photograph, phase_options);
+  if (!phase) return Fail(phase.error());
+  out.carrier_period_px = phase->carrier_period_px;
+  out.direction = phase->direction;
+  stages.Done("phase");
+
+  const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
+  out.regions = ResolveOrder(*phase, calibration, options.distance_mm.value_or(middle_mm));
+  const ImageF order = AbsoluteOrder(*phase, out.regions, calibration);
+  stages.Done("order");
+
+  const double slack_mm = options.outside_working_share * middle_mm;
+  const ImageF depth =
+      detail::Triangulate(order, calibration, calibration.near_mm - slack_mm, calibration.far_mm + slack_mm);
+  stages.Done("triangulation");
+  const ImageRgb colour = detail::ColourWithoutStripes(photograph.colour, order, phase->direction);
+  stages.Done("colour");
+  out.surface = detail::BuildSurface(depth, colour, phase->modulation, calibration, options.faces);
+  stages.Done("mesh");
+  if (out.surface.size() == 0) {
+    return Fail(ErrorCode::kMeasurementRefused, "no point lies within the working distance of " +
+                                                    std::to_string(std::lround(calibration.near_mm)) + " to " +
+                                                    std::to_string(std::lround(calibration.far_mm)) +
+                                                    " mm; check the distance and that the calibration is this rig's");
+  }
+  out.coverage = Coverage(*phase, out.surface.size());
+  CollectWarnings(*phase, out);
+  return out;
+}
+
+}  // namespace striae::reconstruct
