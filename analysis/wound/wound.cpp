@@ -50,7 +50,8 @@ std::optional<Attempt> Try(const Scene& scene, double gap_mm, const Options& opt
   if (attempt.ring.coverage < kLeastCoverage || attempt.ring.empty_sectors > kMostEmptySectors) return std::nullopt;
   attempt.weights = WeighRing(attempt.ring.points);
   attempt.skin = FitSkin(SkinModel::kQuadricC4, attempt.ring.points, attempt.weights);
-  attempt.trend = FindRadialTrend(attempt.ring, attempt.skin);
+  // Against a stiff skin: a quartic bends with the swelling and hides it.
+  attempt.trend = FindRadialTrend(attempt.ring, FitSkin(SkinModel::kQuadric, attempt.ring.points, attempt.weights));
   return attempt;
 }
 

@@ -89,19 +89,23 @@ double Body::CraterVolumeMm3() const {
   const double a = crater_radius_mm, d = crater_depth_mm;
   if (radius_mm == 0) return M_PI * a * a * d / 2;
   if (taper == 0 && bulge_per_mm == 0) return M_PI * a * a * (d / 2 - d * d / (6 * radius_mm));
+  return NetVolumeMm3(a);
+}
+
+double Body::NetVolumeMm3(double rho_mm) const {
   double volume = 0;
-  const double step = a / 500;
-  for (double y = -a + step / 2; y < a; y += step) {
-    for (double s = -a + step / 2; s < a; s += step) {
-      if (std::hypot(s, y) >= a) continue;
-      const double big = RadiusAt(y), depth = Depth(s, y);
-      volume += (big * depth - depth * depth / 2) * step * step / radius_mm;
+  const double step = rho_mm / 500;
+  for (double y = -rho_mm + step / 2; y < rho_mm; y += step) {
+    for (double s = -rho_mm + step / 2; s < rho_mm; s += step) {
+      if (std::hypot(s, y) >= rho_mm) continue;
+      const double depth = Depth(s, y);
+      volume += (radius_mm == 0 ? depth : (RadiusAt(y) * depth - depth * depth / 2) / radius_mm) * step * step;
     }
   }
   return volume;
 }
 
-Surface Photograph(const Body& body, const Camera& camera, const Noise& noise) {
+Surface Observe(const Body& body, const Camera& camera, const Noise& noise) {
   const Pose pose = PoseOf(body);
   std::mt19937 random(noise.seed);
   std::normal_distribution<double> normal;

@@ -25,6 +25,8 @@ struct Body {
   [[nodiscard]] double RadiusAt(double y_mm) const;
   /// By definition: integral of (R^2 - (R - d)^2) / 2 over angle and height; closed form on plate and cylinder.
   [[nodiscard]] double CraterVolumeMm3() const;
+  /// The same, net of swelling, within rho < `rho_mm`, by quadrature.
+  [[nodiscard]] double NetVolumeMm3(double rho_mm) const;
 };
 
 struct Camera {
@@ -40,7 +42,7 @@ struct Noise {
 };
 
 /// What the camera sees of the body: one vertex per pixel that meets it; no faces.
-Surface Photograph(const Body& body, const Camera& camera, const Noise& noise = {});
+Surface Observe(const Body& body, const Camera& camera, const Noise& noise = {});
 /// The circle of radius `radius_mm` around the crater's middle on the uncarved skin, in sensor pixels.
 Outline CircleOn(const Body& body, const Camera& camera, double radius_mm, int points = 96);
 

@@ -14,14 +14,14 @@ using striae::testing::Body;
 using striae::testing::Camera;
 using striae::testing::CircleOn;
 using striae::testing::Keep;
-using striae::testing::Photograph;
+using striae::testing::Observe;
 using ::testing::HasSubstr;
 
 const Camera kCamera{.width = 360, .height = 360, .focal_px = 2000};
 const Body kBody{.radius_mm = 60, .crater_radius_mm = 12};
 
 const Surface& Limb() {
-  static const Surface kLimb = Photograph(kBody, kCamera);
+  static const Surface kLimb = Observe(kBody, kCamera);
   return kLimb;
 }
 
@@ -101,7 +101,7 @@ TEST(WoundRefused, SkinBendsAwayBeyondSixtyDegrees) {
   // A finger: half of the ring lies where a cylinder of 16 mm has turned by more than 60 degrees.
   const Body finger{.radius_mm = 16, .crater_radius_mm = 8, .crater_depth_mm = 2};
   const Camera near{.width = 360, .height = 360, .focal_px = 4000};
-  ExpectRefusal(Measure(Photograph(finger, near), CircleOn(finger, near, 8)), ErrorCode::kMeasurementRefused, "");
+  ExpectRefusal(Measure(Observe(finger, near), CircleOn(finger, near, 8)), ErrorCode::kMeasurementRefused, "");
 }
 
 TEST(WoundRefused, OptionsThatCannotBeMeant) {

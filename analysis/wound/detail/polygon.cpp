@@ -6,31 +6,34 @@
 
 namespace striae::wound {
 
-PolygonField::PolygonField(Polygon polygon) : polygon_(std::move(polygon)), start_{0} {
-  for (std::size_t k = 0; k < polygon_.size(); ++k) {
-    start_.push_back(start_.back() + (polygon_[(k + 1) % polygon_.size()] - polygon_[k]).norm());
+PolygonField::PolygonField(const Polygon& polygon) : start_{0} {
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Eigen::Vector2d a = polygon[k], side = polygon[(k + 1) % polygon.size()] - a;
+    const double length2 = side.squaredNorm();
+    sides_.push_back({a.x(), a.y(), side.x(), side.y(), length2 > 0 ? 1 / length2 : 0});
+    start_.push_back(start_.back() + std::sqrt(length2));
   }
 }
 
 PolygonPlace PolygonField::At(const Eigen::Vector2d& point) const {
-  double best = std::numeric_limits<double>::infinity(), along = 0;
+  double best = std::numeric_limits<double>::infinity(), share = 0;
+  std::size_t nearest = 0;
   bool inside = false;
-  for (std::size_t k = 0; k < polygon_.size(); ++k) {
-    const Eigen::Vector2d& a = polygon_[k];
-    const Eigen::Vector2d& b = polygon_[k + 1 < polygon_.size() ? k + 1 : 0];
-    const Eigen::Vector2d side = b - a, offset = point - a;
-    const double length2 = side.squaredNorm();
-    const double t = length2 > 0 ? std::clamp(offset.dot(side) / length2, 0.0, 1.0) : 0.0;
-    const double distance2 = (offset - t * side).squaredNorm();
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const Side& side = sides_[k];
+    const double x = point.x() - side.x, y = point.y() - side.y;
+    const double t = std::min(1.0, std::max(0.0, (x * side.dx + y * side.dy) * side.per_length2));
+    const double off_x = x - t * side.dx, off_y = y - t * side.dy;
+    const double distance2 = off_x * off_x + off_y * off_y;
     if (distance2 < best) {
       best = distance2;
-      along = start_[k] + t * (start_[k + 1] - start_[k]);
+      share = t;
+      nearest = k;
     }
-    if ((a.y() > point.y()) != (b.y() > point.y()) &&
-        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
-      inside = !inside;
-    }
+    // The side crosses the point's row, and does so to its right.
+    if ((y < 0) != (y < side.dy) && (x < y / side.dy * side.dx)) inside = !inside;
   }
+  const double along = start_[nearest] + share * (start_[nearest + 1] - start_[nearest]);
   return {inside ? -std::sqrt(best) : std::sqrt(best), perimeter() > 0 ? along / perimeter() : 0};
 }
 

@@ -73,6 +73,8 @@ std::string_view ToString(SkinModel model) {
       return "c2";
     case SkinModel::kC4:
       return "c4";
+    case SkinModel::kQuadric:
+      return "q";
     case SkinModel::kQuadricC4:
       return "q+c4";
   }
@@ -170,9 +172,10 @@ Skin FitSkin(SkinModel model, const std::vector<Eigen::Vector3d>& ring, const Ri
   Skin skin;
   skin.model = model;
   skin.radius_mm = RadiusOf(ring);
-  skin.order = model == SkinModel::kC2 ? 2 : 4;
+  const bool stiff = model == SkinModel::kC2 || model == SkinModel::kQuadric;
+  skin.order = stiff ? 2 : 4;  // a quadratic on a quadric's residual only rounds it off
   auto points = Scaled(ring, 1 / skin.radius_mm);
-  if (model == SkinModel::kQuadricC4) {
+  if (model == SkinModel::kQuadric || model == SkinModel::kQuadricC4) {
     // The ring has about 2 pi R times its width; a third of its radius is a fair width for counting patches.
     const double independent = 2.0 / (kIndependentPatch * kIndependentPatch);
     skin.quadric = FitQuadric(points, weights.weight, weights.noise_mm / skin.radius_mm, independent);
@@ -186,7 +189,7 @@ Skin FitSkin(SkinModel model, const std::vector<Eigen::Vector3d>& ring, const Ri
     if (skin.quadric) {
       for (auto& p : points) p.z() -= skin.quadric->At(p.x(), p.y()).value_or(0);
     } else {
-      skin.model = SkinModel::kC4;
+      skin.model = stiff ? SkinModel::kC2 : SkinModel::kC4;
       skin.fell_back = true;
     }
   }

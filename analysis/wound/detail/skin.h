@@ -11,8 +11,8 @@
 
 namespace striae::wound {
 
-/// c2: quadratic height; c4: quartic height; q+c4: quadric in space, then a quartic on its residual.
-enum class SkinModel { kC2, kC4, kQuadricC4 };
+/// c2: quadratic height; c4: quartic height; q: quadric in space; q+c4: quadric, then a quartic on its residual.
+enum class SkinModel { kC2, kC4, kQuadric, kQuadricC4 };
 std::string_view ToString(SkinModel model);
 
 /// Wound frame: origin at the ring's centre, w towards the camera, lengths in mm.
