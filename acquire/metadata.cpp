@@ -65,9 +65,9 @@ std::optional<int> InRange(std::optional<long> value, long low, long high) {
 }
 
 std::string LensOf(const Tags& tags) {
-  const std::string by_exif = tags.Text("Exif.Photo.LensModel");
+  std::string by_exif = tags.Text("Exif.Photo.LensModel");
   if (!by_exif.empty()) return by_exif;
-  const std::string by_id = tags.Printed("Exif.NikonLd3.LensIDNumber");
+  std::string by_id = tags.Printed("Exif.NikonLd3.LensIDNumber");
   // An id that Exiv2 does not know prints as a number in brackets; the focal range is then the better name.
   if (!by_id.empty() && by_id[0] != '(') return by_id;
   return tags.Printed("Exif.Nikon3.Lens");

@@ -11,7 +11,7 @@
 namespace striae::acquire::detail {
 
 /// "phase" {"name"}, "beat" {}, "file" {"folder","name","ours"} + the file, "fail" {"kind","code","text"}, "done" {}.
-struct Frame {
+struct Frame {            // NOLINT(bugprone-exception-escape): nlohmann's own noexcept move
   nlohmann::json header;  ///< always has "tag"
   std::vector<std::uint8_t> bytes;
 };

@@ -234,11 +234,10 @@ PtpReply PtpCamera::PropertyDescription(std::uint16_t property) {
   switch (property) {
     case 0x5001:
       return u8(90, 100);  // battery
-    case 0xD1C0:
-      return u8(1, 1);  // flash open
-    case 0xD1C1:
-      return u8(1, 1);  // flash charged
-    case 0x5007:        // f/11
+    case 0xD1C0:           // flash open
+    case 0xD1C1:           // flash charged
+      return u8(1, 1);
+    case 0x5007:  // f/11
       writer.U16(property).U16(kU16).U8(kWritable).U16(1100).U16(1100).U8(2).U16(3).U16(800).U16(1100).U16(1600);
       return Data(writer);
     case 0x500A:  // focus mode: manual
