@@ -1,0 +1,102 @@
+#include "acquire/rig/detail/shading.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace striae::rig::detail {
+namespace {
+
+constexpr double kLift_mm = 0.02;  // shadow rays start above the facet, beyond float precision at 2 m
+constexpr std::array kAcross = {-0.375, -0.125, 0.125, 0.375};  // places across the stripes within a pixel
+constexpr std::array kAlong = {-0.333, 0.0, 0.333};
+
+}  // namespace
+
+Shader::Shader(const TriangleMesh& mesh, const RayScene& scene, const Calibration& calibration,
+               const LightOptions& options)
+    : mesh_(mesh),
+      scene_(scene),
+      calibration_(calibration),
+      optics_(calibration),
+      stripes_(StripesOf(calibration)),
+      options_(options),
+      grating_(stripes_, options.blur_stripes),
+      projector_(calibration, stripes_, options) {}
+
+Shader::Plane Shader::PlaneOf(std::uint32_t triangle) const {
+  const auto& t = mesh_.triangle[triangle];
+  const Eigen::Vector3d& a = mesh_.vertex[t[0]];
+  const Eigen::Vector3d normal = (mesh_.vertex[t[1]] - a).cross(mesh_.vertex[t[2]] - a);
+  return {normal, normal.dot(a)};
+}
+
+Sample Shader::Trace(const Eigen::Vector2d& pixel) const {
+  Sample sample;
+  sample.ray = RayOf(calibration_.camera, pixel);
+  const auto hit = scene_.FromCamera(sample.ray);
+  if (!hit) return sample;
+  sample.hit = true;
+  sample.where = *hit;
+  const Plane plane = PlaneOf(hit->triangle);
+  // Embree works in single precision; the facet's plane gives the depth in double.
+  const double depth = plane.offset / plane.normal.dot(sample.ray);
+  sample.depth_mm = static_cast<float>(depth);
+  const Eigen::Vector3d point = depth * sample.ray;
+  const Eigen::Vector3d& light = calibration_.projector.center_mm;
+  const Eigen::Vector3d out = plane.normal.dot(sample.ray) < 0 ? plane.normal : Eigen::Vector3d(-plane.normal);
+  if (out.dot(light - point) > 0) sample.sees_light = scene_.Sees(point + kLift_mm * out.normalized(), light);
+  return sample;
+}
+
+bool Shader::Lit(const Sample& sample) const {
+  if (!sample.hit || !sample.sees_light) return false;
+  const Eigen::Vector3d point = sample.depth_mm * sample.ray;
+  const auto order = optics_.OrderAt(point);
+  if (!order || *order < -0.25 || *order > stripes_ - 0.75) return false;
+  LightOptions bare = options_;
+  return projector_.At(point) > 0.25 * bare.flash * bare.reference_mm * bare.reference_mm /
+                                    (point - calibration_.projector.center_mm).squaredNorm();
+}
+
+Eigen::Vector3f Shader::Smooth(const Sample& centre, const Eigen::Vector3d& step) const {
+  const auto& t = mesh_.triangle[centre.where.triangle];
+  const double u = centre.where.u, v = centre.where.v, w = 1 - u - v;
+  const Eigen::Vector3f albedo = static_cast<float>(w) * mesh_.albedo[t[0]] +
+                                 static_cast<float>(u) * mesh_.albedo[t[1]] +
+                                 static_cast<float>(v) * mesh_.albedo[t[2]];
+  const double cos_field = 1 / centre.ray.norm();
+  const double lens = std::pow(cos_field, 4);
+  double light = 0;
+  if (centre.sees_light) {
+    const Eigen::Vector3d point = centre.depth_mm * centre.ray;
+    Eigen::Vector3d normal = (w * mesh_.normal[t[0]] + u * mesh_.normal[t[1]] + v * mesh_.normal[t[2]]).normalized();
+    if (normal.dot(centre.ray) > 0) normal = -normal;
+    const double facing = std::max(0.0, normal.dot((calibration_.projector.center_mm - point).normalized()));
+    const Plane plane = PlaneOf(centre.where.triangle);
+    double passed = 0;
+    for (const double offset : kAcross) {
+      const Eigen::Vector3d ray = centre.ray + offset * step;
+      const auto order = optics_.OrderAt(plane.offset / plane.normal.dot(ray) * ray);
+      if (order) passed += grating_.At(*order) / kAcross.size();
+    }
+    light = projector_.At(point) * facing * (options_.leak + (1 - options_.leak) * passed);
+  }
+  return static_cast<float>((light + options_.ambient) * lens) * albedo;
+}
+
+Eigen::Vector3f Shader::Edge(const Eigen::Vector2d& pixel) const {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const double across : kAcross) {
+    for (const double along : kAlong) {
+      const Eigen::Vector2d offset = AlongRows() ? Eigen::Vector2d(along, across) : Eigen::Vector2d(across, along);
+      const Sample sample = Trace(pixel + offset);
+      if (sample.hit) sum += Smooth(sample, Eigen::Vector3d::Zero());
+    }
+  }
+  return sum / static_cast<float>(kAcross.size() * kAlong.size());
+}
+
+}  // namespace striae::rig::detail

@@ -1,0 +1,52 @@
+// Light from one sample of the scene, and from one pixel as the mean over its area.
+#pragma once
+
+#include <optional>
+
+#include "acquire/rig/detail/ray_scene.h"
+#include "acquire/rig/render.h"
+#include "core/optics.h"
+
+namespace striae::rig::detail {
+
+/// What the ray of a pixel's centre meets.
+struct Sample {
+  bool hit = false;
+  bool sees_light = false;
+  float depth_mm = 0;
+  Hit where;
+  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();  ///< z = 1
+};
+
+class Shader {
+ public:
+  Shader(const TriangleMesh& mesh, const RayScene& scene, const Calibration& calibration, const LightOptions& options);
+
+  [[nodiscard]] Sample Trace(const Eigen::Vector2d& pixel) const;
+  /// Linear RGB of a pixel whose surroundings are one smooth facet: the facet's plane stands for all of its area.
+  /// `step` is the change of the ray from this pixel to the next across the stripes.
+  [[nodiscard]] Eigen::Vector3f Smooth(const Sample& centre, const Eigen::Vector3d& step) const;
+  /// Linear RGB of a pixel at an edge: a fixed pattern of traced rays.
+  [[nodiscard]] Eigen::Vector3f Edge(const Eigen::Vector2d& pixel) const;
+  /// The grating's light reaches the sample, bright stripe or dark.
+  [[nodiscard]] bool Lit(const Sample& sample) const;
+  [[nodiscard]] bool AlongRows() const { return calibration_.direction == StripeDirection::kHorizontal; }
+
+ private:
+  struct Plane {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< not normalised
+    double offset = 0;
+  };
+  [[nodiscard]] Plane PlaneOf(std::uint32_t triangle) const;
+
+  const TriangleMesh& mesh_;
+  const RayScene& scene_;
+  Calibration calibration_;
+  StripeOptics optics_;
+  int stripes_;
+  LightOptions options_;
+  GratingLight grating_;
+  ProjectorLight projector_;
+};
+
+}  // namespace striae::rig::detail

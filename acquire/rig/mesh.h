@@ -1,0 +1,38 @@
+// The virtual rig's bodies: triangle meshes with normals for shading and an albedo at every vertex.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace striae::rig {
+
+/// Vertices in mm, in the camera frame once the body is placed (x right, y down, z forward).
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertex;
+  std::vector<Eigen::Vector3d> normal;  ///< unit, out of the body; used for shading only, the truth is the facets
+  std::vector<Eigen::Vector3f> albedo;  ///< linear RGB, 0..1
+  std::vector<std::array<std::uint32_t, 3>> triangle;  ///< counter-clockwise seen from outside
+};
+
+/// Joins `columns` x `rows` vertices, stored row by row from index `first`, to triangles; `closed` also joins the last
+/// column to the first. The outside is where columns run to the right and rows downwards.
+void AppendGridTriangles(std::size_t first, int columns, int rows, bool closed, TriangleMesh& mesh);
+
+/// Vertex normals as the sum of the adjoining facets' normals, weighted by area.
+void ComputeNormals(TriangleMesh& mesh);
+
+/// Adds the vertices and triangles of `part`.
+void Append(const TriangleMesh& part, TriangleMesh& mesh);
+
+/// point -> rotation * point + translation, normals likewise.
+void Move(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation, TriangleMesh& mesh);
+
+/// Rotations about the camera's axes as the rig states poses: Rz(roll) Ry(yaw) Rx(pitch), degrees. For a subject who
+/// looks at the camera: positive yaw turns to the subject's right, pitch lowers the chin, roll tilts to the left.
+Eigen::Matrix3d RotationFromPose(double yaw_deg, double pitch_deg, double roll_deg);
+
+}  // namespace striae::rig

@@ -1,0 +1,101 @@
+#include "acquire/rig/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "acquire/rig/detail/bands.h"
+#include "acquire/rig/detail/exposure.h"
+#include "acquire/rig/detail/shading.h"
+
+namespace striae::rig {
+namespace {
+
+constexpr int kBand = 16;
+constexpr double kFullSensorWidth = 4288;
+constexpr double kEdgeSlope = 6;  // depth change over sideways distance that counts as an edge (80 degrees)
+
+/// Rows first - 1 .. last, columns -1 .. width of samples at pixel centres.
+class SampleBand {
+ public:
+  SampleBand(const detail::Shader& shader, int width, int first, int last)
+      : samples_(width + 2, last - first + 2), first_(first) {
+    for (int row = first - 1; row <= last; ++row) {
+      for (int col = -1; col <= width; ++col) At(col, row) = shader.Trace({col, row});
+    }
+  }
+  detail::Sample& At(int col, int row) { return samples_(col + 1, row - first_ + 1); }
+  [[nodiscard]] const detail::Sample& At(int col, int row) const { return samples_(col + 1, row - first_ + 1); }
+
+  /// One of the four neighbours meets something else: nothing, shadow, or a surface at another depth.
+  [[nodiscard]] bool IsEdge(int col, int row, double pixel_rad) const {
+    const detail::Sample& here = At(col, row);
+    for (const auto* other : {&At(col - 1, row), &At(col + 1, row), &At(col, row - 1), &At(col, row + 1)}) {
+      if (other->hit != here.hit || other->sees_light != here.sees_light) return true;
+      if (here.hit && std::abs(other->depth_mm - here.depth_mm) > kEdgeSlope * pixel_rad * here.depth_mm) return true;
+    }
+    return false;
+  }
+
+ private:
+  Image<detail::Sample> samples_;
+  int first_;
+};
+
+Status Check(const TriangleMesh& mesh, const Calibration& calibration, const RenderOptions& options) {
+  if (mesh.triangle.empty()) return Fail(ErrorCode::kUsage, "the virtual rig has no body to photograph");
+  if (mesh.normal.size() != mesh.vertex.size() || mesh.albedo.size() != mesh.vertex.size()) {
+    return Fail(ErrorCode::kUsage, "every vertex of the body needs a normal and an albedo");
+  }
+  const SensorOptions& s = options.sensor;
+  const LightOptions& l = options.light;
+  const bool sane = s.lens_blur_px >= 0 && s.lens_blur_px < 50 && s.iso > 0 && s.full_well_electrons > 0 &&
+                    s.read_noise_electrons >= 0 && l.flash >= 0 && l.ambient >= 0 && l.leak >= 0 && l.leak <= 1 &&
+                    l.blur_stripes >= 0 && l.blur_stripes < 0.25 && std::isfinite(s.iso + l.flash + l.ambient);
+  if (!sane || options.threads < 1 || options.threads > 256) {
+    return Fail(ErrorCode::kUsage,
+                "light or sensor options cannot be meant: ISO, full well and threads are positive, light is not "
+                "negative, blur is below 0.25 stripes and 50 px");
+  }
+  if (calibration.image_width_px < 1 || calibration.image_height_px < 1) {
+    return Fail(ErrorCode::kUsage, "the rig's image size must be positive");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Rendering> Render(const TriangleMesh& mesh, const Calibration& calibration, const RenderOptions& options) {
+  if (auto ok = Check(mesh, calibration, options); !ok) return Fail(ok.error());
+  auto scene = detail::RayScene::Build(mesh);
+  if (!scene) return Fail(scene.error());
+  const detail::Shader shader(mesh, *scene, calibration, options.light);
+  const int width = calibration.image_width_px, height = calibration.image_height_px;
+  const double pixel_rad = 1 / std::min(calibration.camera.fx, calibration.camera.fy);
+  Rendering result{{}, ImageF(width, height, std::numeric_limits<float>::quiet_NaN()), Mask(width, height)};
+  Image<detail::LinearRgb> light(width, height, detail::LinearRgb{});
+  detail::ForEachBand(height, kBand, options.threads, [&](int first, int last) {
+    const SampleBand band(shader, width, first, last);
+    for (int row = first; row < last; ++row) {
+      for (int col = 0; col < width; ++col) {
+        const detail::Sample& sample = band.At(col, row);
+        if (sample.hit) result.depth_mm(col, row) = sample.depth_mm;
+        result.lit(col, row) = shader.Lit(sample) ? 1 : 0;
+        Eigen::Vector3f rgb = Eigen::Vector3f::Zero();
+        if (band.IsEdge(col, row, pixel_rad)) {
+          rgb = shader.Edge({col, row});
+        } else if (sample.hit) {
+          const detail::Sample& next = shader.AlongRows() ? band.At(col, row + 1) : band.At(col + 1, row);
+          rgb = shader.Smooth(sample, next.ray - sample.ray);
+        }
+        light(col, row) = {rgb.x(), rgb.y(), rgb.z()};
+      }
+    }
+  });
+  const double scale = width / kFullSensorWidth;
+  result.photograph =
+      detail::Expose(light, options.sensor, options.sensor.lens_blur_px * scale, 1 / (scale * scale), options.threads);
+  return result;
+}
+
+}  // namespace striae::rig
