@@ -1,0 +1,69 @@
+// `striae phase`: the unwrapped phase of any fringe photograph; no calibration needed.
+#include "reconstruct/phase.h"
+
+#include <fmt/format.h>
+
+#include "app/command.h"
+#include "app/io/files.h"
+#include "app/io/images.h"
+#include "app/io/photograph.h"
+
+namespace striae::app {
+namespace {
+
+struct Options {
+  std::filesystem::path image, out, mask;
+  double window = reconstruct::PhaseOptions{}.window_half_width;
+};
+
+Status WriteImages(const Options& options, const reconstruct::PhaseResult& phase) {
+  const auto tiff = EncodeFloatTiff(phase.unwrapped.phase);
+  if (!tiff) return Fail(tiff.error());
+  if (Status written = WriteFile(options.out, *tiff); !written) return written;
+  if (options.mask.empty()) return {};
+  const auto png = EncodeMaskPng(phase.mask);
+  if (!png) return Fail(png.error());
+  return WriteFile(options.mask, *png);
+}
+
+Status MeasurePhase(Context& context, const Options& options) {
+  const auto bytes = ReadFile(options.image);
+  if (!bytes) return Fail(bytes.error());
+  const auto photograph = DecodePhotograph(*bytes);
+  if (!photograph) return Fail(photograph.error(), options.image.string());
+  reconstruct::PhaseOptions settings;
+  settings.window_half_width = options.window;
+  const auto phase = reconstruct::MeasurePhase(*photograph, settings);
+  if (!phase) return Fail(phase.error(), options.image.string());
+  if (Status written = WriteImages(options, *phase); !written) return written;
+
+  std::size_t valid = 0;
+  for (const std::uint8_t m : phase->mask.pixels()) valid += m;
+  const nlohmann::json document = {{"direction", ToString(phase->direction)},
+                                   {"carrier_period_px", phase->carrier_period_px},
+                                   {"carrier_prominence", phase->carrier_prominence},
+                                   {"points", valid},
+                                   {"regions", phase->unwrapped.regions},
+                                   {"saturated_share", phase->saturated_share}};
+  context.Output(document,
+                 fmt::format("{}: {} stripes every {:.2f} px, {} pixels in {} regions", options.out.string(),
+                             ToString(phase->direction), phase->carrier_period_px, valid, phase->unwrapped.regions));
+  return {};
+}
+
+}  // namespace
+
+void AddCommand_phase(CLI::App& root, Context& context) {
+  CLI::App* command = AddCommand(root, context, "phase", "Measure the unwrapped phase of any fringe photograph",
+                                 "striae phase fringes.png --out phase.tiff --mask mask.png");
+  auto options = std::make_shared<Options>();
+  command->add_option("image", options->image, "Photograph: JPEG, PNG, TIFF or BMP")->required();
+  command->add_option("--out", options->out, "Phase to write (TIFF, float32, radians, NaN where invalid)")->required();
+  command->add_option("--mask", options->mask, "Mask to write (PNG, 255 = valid)");
+  command->add_option("--window", options->window, "Half width of the Hann window over the carrier's frequency")
+      ->check(CLI::Range(0.05, 1.0))
+      ->capture_default_str();
+  OnRun(command, context, [options](Context& run) { return MeasurePhase(run, *options); });
+}
+
+}  // namespace striae::app
