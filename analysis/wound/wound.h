@@ -19,11 +19,13 @@ struct Options {
   /// Where the ring of healthy skin may begin, outwards from the line; the first without a radial trend is taken.
   std::vector<double> gaps_mm = {2, 3, 4, 6, 8, 10, 12, 15, 18};
   double ring_width_mm = 12;
-  double radial_trend_mm = 0.05;    ///< step between the ring's inner edge and its middle that counts as oedema
-  double smoothing_mm = 0.7;       ///< sd of the Gaussian before depth and bed area; volume stays unsmoothed
+  double radial_trend_mm = 0.05;   ///< step between the ring's inner edge and its middle that counts as oedema
+  double smoothing_mm = 0.5;       ///< sd of the Gaussian before depth and bed area; volume stays unsmoothed
   double perimeter_step_mm = 1.0;  ///< the outline is resampled at this step and draped on the virtual skin
   double max_ring_slope_deg = 60;  ///< steeper skin (against the ring's mean plane) cannot be continued by polynomials
   double outline_sd_mm = 0.3;      ///< standard uncertainty of the drawn line's place, as a common offset
+  double wall_sd_mm = 0.05;  ///< standard uncertainty of the place of a wound's walls: the Fourier stage rounds them
+  double bridge_mm = 2;      ///< holes inside the wound are bridged up to this far from a measured point
   double scale_relative_sd = 0.002;  ///< standard uncertainty of the surface's scale (calibration)
 };
 

@@ -50,7 +50,7 @@ TEST_P(CraterOn, HasItsVolumeAreaPerimeterAndDepth) {
   // (a / radius)^2 / 12 at most: below 1 %. The polygon of 96 corners itself loses 0.07 %.
   EXPECT_NEAR(report.Find("area")->value, M_PI * a * a / 100, 0.01 * M_PI * a * a / 100);
   EXPECT_NEAR(report.Find("perimeter")->value, 2 * M_PI * a, 0.01 * 2 * M_PI * a);
-  // Smoothing by 0.7 mm flattens the parabola's bottom by smoothing^2 * 2 D / a^2: 0.03 mm; a wall of pixels 0.03 mm.
+  // Smoothing by 0.5 mm flattens the parabola's bottom by smoothing^2 * 2 D / a^2: 0.03 mm; a wall of pixels 0.03 mm.
   EXPECT_NEAR(report.Find("depth_max")->value, body.crater_depth_mm, 0.1);
   EXPECT_NEAR(report.Find("depth_p95")->value, 0.95 * body.crater_depth_mm, 0.03 * body.crater_depth_mm);
   EXPECT_NEAR(report.Find("depth_mean")->value, 1000 * volume / (M_PI * a * a), 0.02 * body.crater_depth_mm);
@@ -160,8 +160,9 @@ RC_GTEST_PROP(WoundMeasurement, ScalesWithTheWorld, ()) {
   Surface scaled = kSurface;
   for (auto& p : scaled.point_in_camera) p *= static_cast<float>(scale);
   Options options;
-  for (double* length : {&options.cell_mm, &options.margin_mm, &options.ring_width_mm, &options.radial_trend_mm,
-                         &options.smoothing_mm, &options.perimeter_step_mm, &options.outline_sd_mm}) {
+  for (double* length :
+       {&options.cell_mm, &options.margin_mm, &options.ring_width_mm, &options.radial_trend_mm, &options.wall_sd_mm,
+        &options.bridge_mm, &options.smoothing_mm, &options.perimeter_step_mm, &options.outline_sd_mm}) {
     *length *= scale;
   }
   for (double& gap : options.gaps_mm) gap *= scale;

@@ -153,6 +153,32 @@ Result<Patch> CutPatch(const Surface& surface, const std::vector<Eigen::Vector2d
   return patch;
 }
 
+double ShareBeyond(const Patch& patch, const std::vector<std::uint8_t>& region, double reach_mm) {
+  std::vector<std::uint8_t> near(patch.size());
+  std::vector<std::size_t> front;
+  for (std::size_t cell = 0; cell < patch.size(); ++cell) {
+    near[cell] = patch.state[cell] == Patch::kMeasured ? 1 : 0;
+    if (near[cell] != 0) front.push_back(cell);
+  }
+  for (double reached = 0; reached < reach_mm; reached += patch.cell_mm()) {
+    std::vector<std::size_t> next_front;
+    for (const auto cell : front) {
+      ForNeighbours(patch, cell, [&](std::size_t next) {
+        if (near[next] != 0) return;
+        near[next] = 1;
+        next_front.push_back(next);
+      });
+    }
+    front = std::move(next_front);
+  }
+  double all = 0, beyond = 0;
+  for (std::size_t cell = 0; cell < patch.size(); ++cell) {
+    all += region[cell];
+    beyond += region[cell] != 0 && near[cell] == 0 ? 1 : 0;
+  }
+  return all > 0 ? beyond / all : 0;
+}
+
 void FillHoles(Patch& patch, const std::vector<std::uint8_t>& wanted) {
   std::vector<double> range(patch.size(), 0);
   std::vector<std::size_t> front, filled;

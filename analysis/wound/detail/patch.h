@@ -52,6 +52,9 @@ struct Patch {
 Result<Patch> CutPatch(const Surface& surface, const std::vector<Eigen::Vector2d>& polygon_px, double cell_mm,
                        double reach_mm);
 
+/// Share of the cells in `region` that have no measured cell within `reach_mm` (city-block steps).
+double ShareBeyond(const Patch& patch, const std::vector<std::uint8_t>& region, double reach_mm);
+
 /// Fills missing cells where `wanted` is set with the smoothest ranges that meet their measured neighbours (membrane).
 void FillHoles(Patch& patch, const std::vector<std::uint8_t>& wanted);
 

@@ -110,6 +110,20 @@ void SmoothAlong(const Patch& patch, double sd_cells, bool rows, std::vector<dou
   mass = std::move(mass_out);
 }
 
+// Distance of a point below the skin from it, along the skin's own normal: the foot f of the normal through p obeys
+// p = f - depth n(f), solved by repeated substitution (it contracts while the depth is below the radius of curvature).
+double NormalDepth(const Skin& skin, const Eigen::Vector3d& p) {
+  Eigen::Vector2d foot = p.head<2>();
+  double depth = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector2d g = skin.Gradient(foot.x(), foot.y());
+    const Eigen::Vector3d normal = Eigen::Vector3d(-g.x(), -g.y(), 1).normalized();
+    depth = normal.dot(Eigen::Vector3d(foot.x(), foot.y(), skin.Height(foot.x(), foot.y())) - p);
+    foot = p.head<2>() + depth * normal.head<2>();
+  }
+  return depth;
+}
+
 double Percentile95(std::vector<std::pair<double, double>> value_and_area) {
   std::sort(value_and_area.begin(), value_and_area.end());
   double total = 0;
@@ -201,8 +215,8 @@ Depths MeasureDepths(const Scene& scene, const Bed& bed, const Skin& skin, const
   for (std::size_t k = 0; k < bed.cell.size(); ++k) {
     auto& p = smooth.point[k];
     height[k] = smoothed[bed.cell[k]];
-    depth[k] = height[k] / std::sqrt(1 + skin.Gradient(p.x(), p.y()).squaredNorm());
     p.z() = skin.Height(p.x(), p.y()) - height[k];
+    depth[k] = NormalDepth(skin, p);
     if (bed.distance[k] <= 0 && depth[k] > depths.max_mm) {
       depths.max_mm = depth[k];
       depths.deepest = p.head<2>();
@@ -215,6 +229,9 @@ Depths MeasureDepths(const Scene& scene, const Bed& bed, const Skin& skin, const
     double proud = 0;
     for (const auto v : t) proud += height[v] < -proud_threshold_mm ? -height[v] * area / 3 : 0;
     depths.proud_all_mm3 += proud;
+    const bool bridged =
+        std::any_of(t.begin(), t.end(), [&](auto v) { return scene.patch.state[bed.cell[v]] == Patch::kFilled; });
+    if (bridged) depths.bridged_mm3 += area * std::abs(height[t[0]] + height[t[1]] + height[t[2]]) / 3;
     if (bed.distance[t[0]] + bed.distance[t[1]] + bed.distance[t[2]] > 0) continue;
     depths.proud_mm3 += proud;
     const Eigen::Vector3d ab = smooth.point[t[1]] - smooth.point[t[0]], ac = smooth.point[t[2]] - smooth.point[t[0]];

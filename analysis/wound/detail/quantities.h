@@ -40,6 +40,7 @@ struct Depths {
   double proud_mm3 = 0;      ///< tissue above the skin by more than the threshold, inside the outline
   double proud_all_mm3 = 0;  ///< the same with the margin
   double bed_area_mm2 = 0;   ///< of the smoothed bed inside the outline
+  double bridged_mm3 = 0;    ///< volume under the skin over triangles that touch a filled cell
 };
 Depths MeasureDepths(const Scene& scene, const Bed& bed, const Skin& skin, const std::vector<double>& smoothed,
                      double proud_threshold_mm);

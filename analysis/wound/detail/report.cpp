@@ -88,6 +88,8 @@ nlohmann::json ToJson(const Options& options) {
           {"perimeter_step_mm", options.perimeter_step_mm},
           {"max_ring_slope_deg", options.max_ring_slope_deg},
           {"outline_sd_mm", options.outline_sd_mm},
+          {"wall_sd_mm", options.wall_sd_mm},
+          {"bridge_mm", options.bridge_mm},
           {"scale_relative_sd", options.scale_relative_sd}};
 }
 

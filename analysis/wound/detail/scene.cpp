@@ -7,7 +7,7 @@ namespace striae::wound {
 namespace {
 
 constexpr double kLeastBoundaryShare = 0.85;
-constexpr double kMostHoles = 0.2;
+constexpr double kMostHoles = 0.4, kMostBeyondBridge = 0.02;  // of the cells inside the outline
 constexpr int kLeastCells = 30;
 
 std::string Percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
@@ -109,7 +109,9 @@ Result<std::vector<std::uint8_t>> SortCells(ScenePlus& plus, const std::vector<d
                     " of the outline runs along connected skin: it leaves the reconstructed surface or crosses the "
                     "body's edge; check that it was drawn on this photograph, or photograph the wound more squarely");
   }
-  if (plus.hole_share > kMostHoles) {
+  std::vector<std::uint8_t> interior(patch.size());
+  for (std::size_t c = 0; c < patch.size(); ++c) interior[c] = outside[c] == 0 ? 1 : 0;
+  if (plus.hole_share > kMostHoles || ShareBeyond(patch, interior, options.bridge_mm) > kMostBeyondBridge) {
     return Fail(ErrorCode::kMeasurementRefused,
                 Percent(plus.hole_share) +
                     " of the surface inside the outline is missing (shadow, glare or a dark bed)"

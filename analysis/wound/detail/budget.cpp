@@ -1,0 +1,142 @@
+#include "analysis/wound/detail/budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/wound/detail/uncertainty.h"
+
+namespace striae::wound {
+namespace {
+
+constexpr double kComparableFit = 1.2;       // a model whose ring rms is worse than this does not fit, and says nothing
+constexpr double kBridgeRelativeSd = 0.1;    // of the volume over bridged holes
+constexpr double kBedAreaRelativeSd = 0.02;  // smoothing rounds the rim
+constexpr double kDepthRelativeSd = 0.01;    // the Fourier window rings at steep walls
+
+double RootOfSquares(std::initializer_list<double> parts) {
+  double sum = 0;
+  for (const double p : parts) sum += p * p;
+  return std::sqrt(sum);
+}
+
+double SdOf(double centre, const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += (v - centre) * (v - centre);
+  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// What other models of the skin say.
+struct Alternatives {
+  nlohmann::json table = nlohmann::json::array();
+  double volume_sd_mm3 = 0, depth_sd_mm = 0;
+};
+
+Alternatives CompareModels(const Attempt& a, const Bed& bed, const Eigen::Vector2d& deepest) {
+  Alternatives result;
+  const double volume = PrismSum(bed, HeightsAbove(bed, a.skin));
+  const double height = a.skin.Height(deepest.x(), deepest.y());
+  double volume_gap = 0, height_gap = 0;
+  for (const SkinModel model : {SkinModel::kC2, SkinModel::kC4, SkinModel::kQuadricC4}) {
+    const Skin skin = FitSkin(model, a.ring.points, a.weights);
+    const double other = PrismSum(bed, HeightsAbove(bed, skin));
+    result.table.push_back(
+        {{"model", std::string(ToString(model))}, {"net_volume_ml", other / 1000}, {"ring_rms_mm", skin.rms_mm}});
+    if (skin.rms_mm > kComparableFit * a.skin.rms_mm + 1e-6 * a.skin.radius_mm) continue;
+    volume_gap = std::max(volume_gap, std::abs(other - volume));
+    height_gap = std::max(height_gap, std::abs(skin.Height(deepest.x(), deepest.y()) - height));
+  }
+  // The truth is as likely anywhere between the models: a rectangle of that half-width.
+  result.volume_sd_mm3 = volume_gap / std::sqrt(3);
+  result.depth_sd_mm = height_gap / std::sqrt(3);
+  return result;
+}
+
+/// Standard uncertainties of the volume, mm3.
+struct VolumeParts {
+  double ring = 0, bed = 0, model = 0, gap = 0, outline = 0, walls = 0, bridges = 0, scale = 0;
+  [[nodiscard]] double Sum() const { return RootOfSquares({ring, bed, model, gap, outline, walls, bridges, scale}); }
+};
+
+nlohmann::json ToJson(const VolumeParts& u) {
+  return {{"ring", u.ring / 1000},       {"bed", u.bed / 1000},         {"model", u.model / 1000},
+          {"gap", u.gap / 1000},         {"outline", u.outline / 1000}, {"walls", u.walls / 1000},
+          {"bridges", u.bridges / 1000}, {"scale", u.scale / 1000}};
+}
+
+// How the volume changes when the drawn line moves out or in by its uncertainty.
+double OutlinePart(const Scene& scene, const Skin& skin, const Options& options) {
+  const auto net_at = [&](double margin_mm) {
+    const Bed bed = TakeBed(scene, margin_mm);
+    return PrismSum(bed, HeightsAbove(bed, skin));
+  };
+  return std::abs(net_at(options.margin_mm + options.outline_sd_mm) -
+                  net_at(options.margin_mm - options.outline_sd_mm)) /
+         2;
+}
+
+void SetLengths(const Boundary& boundary, const Options& options, Figures& figures) {
+  const double s = options.outline_sd_mm, scale = options.scale_relative_sd;
+  figures.area = {boundary.area_mm2, RootOfSquares({boundary.perimeter_mm * s, 2 * scale * boundary.area_mm2})};
+  figures.perimeter = {boundary.perimeter_mm, RootOfSquares({2 * M_PI * s, scale * boundary.perimeter_mm})};
+  figures.length = {boundary.length_mm, RootOfSquares({std::sqrt(2.0) * s, scale * boundary.length_mm})};
+  figures.width = {boundary.width_mm, RootOfSquares({std::sqrt(2.0) * s, scale * boundary.width_mm})};
+}
+
+}  // namespace
+
+double SmoothedRingSd(const Scene& scene, const std::vector<double>& smoothed, const Ring& ring) {
+  std::vector<double> size;
+  for (std::size_t c = 0; c < scene.patch.size(); ++c) {
+    const double d = scene.place[c].distance;
+    if (scene.patch.state[c] == Patch::kMeasured && d >= ring.gap_mm && d <= ring.gap_mm + ring.width_mm) {
+      size.push_back(std::abs(smoothed[c]));
+    }
+  }
+  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
+  std::nth_element(size.begin(), middle, size.end());
+  return 1.4826 * *middle;
+}
+
+Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, const Findings& f, const Options& options,
+                  Flags& flags) {
+  const Attempt& a = choice.chosen;
+  const double volume = f.net_mm3 + f.depths.proud_all_mm3, area = f.boundary.area_mm2;
+  const SkinCovariance covariance = CovarianceOf(a.skin, a.ring, a.weights, options.ring_width_mm / 2);
+  const Alternatives models = CompareModels(a, bed, f.depths.deepest);
+  const double blocks_mm2 = std::sqrt(f.boundary.plane_area_mm2) * covariance.block_mm;
+
+  VolumeParts u;
+  u.ring = VolumeSd(a.skin, covariance, bed);
+  u.bed = covariance.block_mean_sd_mm * blocks_mm2;
+  u.model = models.volume_sd_mm3;
+  u.gap = SdOf(f.net_mm3, choice.other_gap_volumes_mm3);
+  u.outline = OutlinePart(scene, a.skin, options);
+  u.walls = options.wall_sd_mm * f.boundary.perimeter_mm * f.depths.p95_mm;
+  u.bridges = kBridgeRelativeSd * f.depths.bridged_mm3;
+  u.scale = 3 * options.scale_relative_sd * volume;
+  if (std::abs(volume) < 2 * u.Sum()) flags.volume.push_back("not distinguishable from no wound");
+  if (u.model > 0.1 * std::abs(volume)) {
+    flags.volume.push_back("models of the healthy skin disagree by more than 10 %");
+  }
+
+  Budget budget;
+  Figures& figures = budget.figures;
+  SetLengths(f.boundary, options, figures);
+  figures.volume = {volume, u.Sum()};
+  const double u_proud = f.depths.proud_mm3 > 0 ? RootOfSquares({u.ring, u.model}) : 0;
+  figures.proud_volume = {f.depths.proud_mm3, RootOfSquares({f.noise_mm * blocks_mm2, u_proud})};
+  const double bed_area = f.depths.bed_area_mm2;
+  figures.bed_area = {bed_area,
+                      RootOfSquares({figures.area.uncertainty * bed_area / area, kBedAreaRelativeSd * bed_area})};
+  const double u_skin = RootOfSquares({HeightSd(a.skin, covariance, f.depths.deepest), models.depth_sd_mm, f.noise_mm});
+  const auto with_sd = [&](double depth) { return Figure{depth, RootOfSquares({u_skin, kDepthRelativeSd * depth})}; };
+  figures.depth_max = with_sd(f.depths.max_mm);
+  figures.depth_p95 = with_sd(f.depths.p95_mm);
+  figures.depth_mean = {volume / area,
+                        RootOfSquares({u.Sum() / area, volume / area * figures.area.uncertainty / area})};
+  budget.models = models.table;
+  budget.volume_parts_ml = ToJson(u);
+  return budget;
+}
+
+}  // namespace striae::wound

@@ -1,0 +1,35 @@
+// The uncertainty budget of one wound: what each quantity owes to the ring, the model, the gap, the line and the scale.
+#pragma once
+
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/wound/detail/choice.h"
+#include "analysis/wound/detail/quantities.h"
+#include "analysis/wound/detail/report.h"
+
+namespace striae::wound {
+
+/// Everything that was measured, before uncertainties.
+struct Findings {
+  double net_mm3 = 0;   ///< under the skin minus above it, with the margin
+  double noise_mm = 0;  ///< robust sd of the smoothed ring about the skin
+  Depths depths;
+  Boundary boundary;
+};
+
+struct Budget {
+  Figures figures;
+  nlohmann::json models = nlohmann::json::array();  ///< what each model of the skin gives
+  nlohmann::json volume_parts_ml;                   ///< standard uncertainties of the volume, by cause
+};
+
+/// Values with standard uncertainties; adds flags where the volume is doubtful.
+Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, const Findings& findings,
+                  const Options& options, Flags& flags);
+
+/// Robust sd of smoothed heights over the ring.
+double SmoothedRingSd(const Scene& scene, const std::vector<double>& smoothed, const Ring& ring);
+
+}  // namespace striae::wound

@@ -1,0 +1,97 @@
+#include "analysis/wound/detail/choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace striae::wound {
+namespace {
+
+constexpr double kLeastCoverage = 0.6, kGoodCoverage = 0.9;
+constexpr double kMostEmptySectors = 0.25;
+constexpr double kMostSteep = 0.1, kMostOutliers = 0.3, kManyOutliers = 0.1;
+constexpr double kTrendT = 3;
+
+std::optional<Attempt> Try(const Scene& scene, double gap_mm, const Options& options) {
+  Attempt attempt;
+  attempt.ring = TakeRing(scene, gap_mm, options.ring_width_mm);
+  if (attempt.ring.coverage < kLeastCoverage || attempt.ring.empty_sectors > kMostEmptySectors) return std::nullopt;
+  attempt.weights = WeighRing(attempt.ring.points);
+  attempt.skin = FitSkin(SkinModel::kQuadricC4, attempt.ring.points, attempt.weights);
+  // Against a stiff skin: a quartic bends with the swelling and hides it.
+  attempt.trend = FindRadialTrend(attempt.ring, FitSkin(SkinModel::kQuadric, attempt.ring.points, attempt.weights));
+  return attempt;
+}
+
+bool HasTrend(const Attempt& attempt, const Options& options) {
+  return std::abs(attempt.trend.step_mm) > options.radial_trend_mm && std::abs(attempt.trend.t) > kTrendT;
+}
+
+}  // namespace
+
+std::string Format(const char* format, double value) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, const Options& options) {
+  Choice choice;
+  std::size_t at = 0;
+  for (; at < options.gaps_mm.size(); ++at) {
+    auto attempt = Try(scene, options.gaps_mm[at], options);
+    if (!attempt && at == 0) {
+      return Fail(ErrorCode::kMeasurementRefused,
+                  "too little healthy skin around the outline: the ring of " +
+                      Format("%.0f mm", options.ring_width_mm) +
+                      " is cut off by the surface's edge or by holes; photograph with more skin around the wound");
+    }
+    if (!attempt) break;
+    choice.chosen = *std::move(attempt);
+    if (at == 0) {
+      choice.first_gap_mm = options.gaps_mm[0];
+      choice.first_volume_mm3 = PrismSum(bed, HeightsAbove(bed, choice.chosen.skin));
+    }
+    choice.settled = !HasTrend(choice.chosen, options);
+    if (choice.settled) break;
+  }
+  for (std::size_t next = at + 1; next < std::min(at + 3, options.gaps_mm.size()); ++next) {
+    const auto attempt = Try(scene, options.gaps_mm[next], options);
+    if (attempt) choice.other_gap_volumes_mm3.push_back(PrismSum(bed, HeightsAbove(bed, attempt->skin)));
+  }
+  return choice;
+}
+
+Status CheckRing(const Choice& choice, const Options& options, Flags& flags) {
+  const Attempt& a = choice.chosen;
+  const double steep = SteepShare(a.ring, a.skin, options.max_ring_slope_deg);
+  if (steep > kMostSteep) {
+    return Fail(ErrorCode::kMeasurementRefused,
+                "the skin around the outline bends away by more than " + Format("%.0f", options.max_ring_slope_deg) +
+                    " degrees; it cannot be continued across the wound from one photograph");
+  }
+  if (a.weights.outlier_share > kMostOutliers) {
+    return Fail(ErrorCode::kMeasurementRefused,
+                "the skin around the outline is not one smooth surface (cloth, hair or background lies in the ring); "
+                "uncover it and photograph again");
+  }
+  if (steep > 0.01) flags.inside.push_back("part of the surrounding skin is very steep");
+  if (a.weights.outlier_share > kManyOutliers) {
+    flags.inside.push_back(
+        Format("%.0f %% of the surrounding skin was left out as not smooth", 100 * a.weights.outlier_share));
+  }
+  if (a.ring.coverage < kGoodCoverage) {
+    flags.inside.push_back(Format("only %.0f %% of the surrounding ring of skin was seen", 100 * a.ring.coverage));
+  }
+  if (a.skin.fell_back) flags.inside.push_back("no quadric fits the surrounding skin; a quartic patch was used");
+  if (!choice.settled) {
+    flags.inside.push_back(Format("the skin is still uneven %.0f mm from the outline (swelling?)", a.ring.gap_mm));
+  } else if (a.ring.gap_mm > choice.first_gap_mm) {
+    flags.inside.push_back(
+        Format("uneven skin near the wound: the ring of healthy skin begins %.0f mm out", a.ring.gap_mm));
+  }
+  return {};
+}
+
+}  // namespace striae::wound
