@@ -104,7 +104,7 @@ Result<CalibrationReference> Record::CalibrationOn(const DeviceId& device, const
                                             "; add one with 'striae calibration add cal.json --device " + of.serial +
                                             " --valid-from DATE'");
     }
-    return *std::move(found);
+    return *found;
   });
 }
 
