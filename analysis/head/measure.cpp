@@ -86,7 +86,8 @@ Status Judge(const Fit& fit, const std::string& part, const Options& options) {
                   "): check that both show the same person, and repeat the capture");
   }
   if (fit.visible < kLeastVisible) {
-    return refuse("is turned away from the camera in the other capture (" + Number(100 * fit.visible, "%.0f %%") +
+    return refuse("is turned away from the camera or out of the lit field in the other capture (" +
+                  Number(100 * fit.visible, "%.0f %%") +
                   " of it can be seen): take the photograph from nearer to the direction of the face");
   }
   if (fit.residual_mm > options.largest_residual_mm) {

@@ -30,13 +30,14 @@ struct Fit {
   std::vector<Pair> pairs;  ///< after gates and trimming
   double residual_mm = 0;   ///< root mean square of ToPlane over the pairs
   double overlap = 0;       ///< share of the patch's visible points with a counterpart within the gates
-  double visible = 0;       ///< share of the patch's points that face the camera after the motion
+  double visible = 0;       ///< share of the patch's points that face the camera after the motion, within the field
   double loss = 1;          ///< mean over all points of the patch of min(1, (distance / gate)^2): compares starts
 };
 
-/// One stage: counterparts within `distance_mm`, at most `iterations` steps.
+/// One stage: counterparts within `distance_mm` whose normals differ by at most `normals_deg`; at most `iterations`.
 struct Stage {
   double distance_mm;
+  double normals_deg;
   int iterations;
 };
 
@@ -48,11 +49,11 @@ class Target {
   Target(Target&&) noexcept;
   Target& operator=(Target&&) noexcept;
 
-  /// Least squares (trim 0.9, normals within 35 degrees) through the stages, coarse to fine. Fewer than 50
+  /// Least squares (the worst tenth trimmed) through the stages, coarse to fine. Fewer than 50
   /// counterparts end a stage: Judge shows it.
   [[nodiscard]] Eigen::Isometry3d Align(const Cloud& patch, const Eigen::Isometry3d& start,
                                         std::span<const Stage> stages) const;
-  /// Counterparts within `distance_mm` at a given motion.
+  /// Counterparts within `distance_mm` and 35 degrees of normals at a given motion.
   [[nodiscard]] Fit Judge(const Cloud& patch, const Eigen::Isometry3d& target_from_patch, double distance_mm) const;
 
  private:

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -23,7 +24,8 @@ using PclCloud = pcl::PointCloud<pcl::PointNormal>;
 constexpr float kTrim = 0.9F;
 constexpr std::size_t kLeastPairs = 50;
 constexpr double kHiddenCost = 0.25;
-const double kNormalGateCosine = std::cos(35 * std::numbers::pi / 180);
+constexpr float kFieldRimMm = 6;
+constexpr double kJudgedNormalsDeg = 35;
 
 PclCloud::Ptr ToPcl(const Cloud& cloud, const Eigen::Isometry3d& motion) {
   PclCloud::Ptr out(new PclCloud);
@@ -37,13 +39,13 @@ PclCloud::Ptr ToPcl(const Cloud& cloud, const Eigen::Isometry3d& motion) {
 
 /// Counterparts within distance and normal gate, not yet trimmed.
 pcl::Correspondences Match(const PclCloud::Ptr& moved, const PclCloud::Ptr& target,
-                           const pcl::search::KdTree<pcl::PointNormal>::Ptr& tree, double distance_mm) {
+                           const pcl::search::KdTree<pcl::PointNormal>::Ptr& tree, const Stage& gate) {
   pcl::registration::CorrespondenceEstimation<pcl::PointNormal, pcl::PointNormal> estimation;
   estimation.setInputSource(moved);
   estimation.setInputTarget(target);
   estimation.setSearchMethodTarget(tree, true);  // true: never rebuilt
   pcl::Correspondences near;
-  estimation.determineCorrespondences(near, distance_mm);
+  estimation.determineCorrespondences(near, gate.distance_mm);
 
   pcl::registration::CorrespondenceRejectorSurfaceNormal normals;
   normals.initializeDataContainer<pcl::PointNormal, pcl::PointNormal>();
@@ -51,7 +53,7 @@ pcl::Correspondences Match(const PclCloud::Ptr& moved, const PclCloud::Ptr& targ
   normals.setInputNormals<pcl::PointNormal, pcl::PointNormal>(moved);
   normals.setInputTarget<pcl::PointNormal>(target);
   normals.setTargetNormals<pcl::PointNormal, pcl::PointNormal>(target);
-  normals.setThreshold(kNormalGateCosine);
+  normals.setThreshold(std::cos(gate.normals_deg * std::numbers::pi / 180));
   pcl::Correspondences alike;
   normals.getRemainingCorrespondences(near, alike);
   return alike;
@@ -128,14 +130,33 @@ Result<Cloud> WithNormals(const Points& points, double radius_mm) try {
   return Fail(ErrorCode::kInternal, std::string("normals of the surface could not be computed: ") + e.what());
 }
 
+/// What a capture shows: the box around its rays' slopes, less a rim where the Fourier window frays.
+struct Field {
+  Eigen::Array2f least = Eigen::Array2f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Array2f most = -least;
+
+  void Include(const Eigen::Vector3f& p) {
+    const Eigen::Array2f slope = p.head<2>().array() / p.z();
+    least = least.min(slope);
+    most = most.max(slope);
+  }
+  [[nodiscard]] bool Shows(const Eigen::Vector3f& p) const {
+    const Eigen::Array2f slope = p.head<2>().array() / p.z();
+    const float rim = kFieldRimMm / p.z();
+    return (slope >= least + rim).all() && (slope <= most - rim).all();
+  }
+};
+
 struct Target::Impl {
   PclCloud::Ptr cloud;
+  Field field;
   pcl::search::KdTree<pcl::PointNormal>::Ptr tree;
 };
 
 Target::Target(Cloud cloud) : impl_(std::make_unique<Impl>()) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   impl_->cloud = ToPcl(cloud, Eigen::Isometry3d::Identity());
+  for (const auto& p : cloud.point) impl_->field.Include(p);
   impl_->tree.reset(new pcl::search::KdTree<pcl::PointNormal>(false));
   impl_->tree->setInputCloud(impl_->cloud);
 }
@@ -149,7 +170,7 @@ Eigen::Isometry3d Target::Align(const Cloud& patch, const Eigen::Isometry3d& sta
   for (const Stage& stage : stages) {
     for (int i = 0; i < stage.iterations; ++i) {
       const PclCloud::Ptr moved = ToPcl(patch, motion);
-      const pcl::Correspondences pairs = Trim(Match(moved, impl_->cloud, impl_->tree, stage.distance_mm));
+      const pcl::Correspondences pairs = Trim(Match(moved, impl_->cloud, impl_->tree, stage));
       if (pairs.size() < kLeastPairs) return motion;
       const Eigen::Isometry3d step = Step(*moved, *impl_->cloud, pairs);
       const Eigen::Vector3d middle = (*moved)[pairs[pairs.size() / 2].index_query].getVector3fMap().cast<double>();
@@ -164,13 +185,15 @@ Fit Target::Judge(const Cloud& patch, const Eigen::Isometry3d& target_from_patch
   Fit fit;
   fit.target_from_patch = target_from_patch;
   const PclCloud::Ptr moved = ToPcl(patch, target_from_patch);
-  const pcl::Correspondences matched = Match(moved, impl_->cloud, impl_->tree, distance_mm);
-  // A point whose skin is turned more than 75 degrees from the camera cannot have a counterpart.
+  const pcl::Correspondences matched = Match(moved, impl_->cloud, impl_->tree, {distance_mm, kJudgedNormalsDeg, 1});
+  // A point whose skin is turned more than 75 degrees from the camera, or that has left the lit field, cannot have a
+  // counterpart.
   std::vector<char> visible(moved->size());
   std::size_t visible_count = 0, found = 0;
   for (std::size_t i = 0; i < moved->size(); ++i) {
     const Eigen::Vector3f point = (*moved)[i].getVector3fMap();
-    visible[i] = -point.normalized().dot((*moved)[i].getNormalVector3fMap()) > 0.26F ? 1 : 0;
+    const bool faces = -point.normalized().dot((*moved)[i].getNormalVector3fMap()) > 0.26F;
+    visible[i] = faces && impl_->field.Shows(point) ? 1 : 0;
     visible_count += static_cast<std::size_t>(visible[i]);
   }
   // Without a counterpart a hidden point costs a little, so that hiding the patch is no way to fit it.
