@@ -25,9 +25,10 @@ bool IsIdText(std::string_view text) {
 
 void Append(std::vector<Record::Found>& all, Database& database, const std::string& entity, const std::string& where,
             const std::string& name) {
+  std::string sql = "SELECT id FROM ";
+  sql.append(entity).append(" WHERE ").append(where).append(" LIMIT 3");
   for (const std::string& id : database.Rows(
-           "SELECT id FROM " + entity + " WHERE " + where + " LIMIT 3", [](const RowView& row) { return row.Text(0); },
-           name)) {
+           sql, [](const RowView& row) { return row.Text(0); }, name)) {
     all.push_back({entity, id});
   }
 }
