@@ -168,7 +168,7 @@ Result<Object> EncodeMeasurements(const SessionContext& context, const std::vect
     if (group.evidence.front().study_uid != StudyUid(context)) {
       return Fail(ErrorCode::kUsage, "the measurements refer to objects that are not of this session");
     }
-    at = std::max(at, group.made_at);
+    if (group.made_at.unix_ms > at.unix_ms) at = group.made_at;
   }
   const detail::Equipment striae = detail::StriaeEquipment(context, groups.front().report.provenance.version);
   DcmFileFormat file;

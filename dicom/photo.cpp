@@ -1,5 +1,6 @@
 #include "dicom/photo.h"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,7 +68,7 @@ void PutPixelDescription(DatasetWriter& out, const JpegInfo& info, std::size_t j
   out.PutUint16(DCM_BitsAllocated, 8).PutUint16(DCM_BitsStored, 8).PutUint16(DCM_HighBit, 7);
   out.PutUint16(DCM_PixelRepresentation, 0);
   const double raw = (grey ? 1.0 : 3.0) * info.width_px * info.height_px;
-  const double ratio = static_cast<double>(static_cast<long>(100 * raw / static_cast<double>(jpeg_bytes) + 0.5)) / 100;
+  const double ratio = static_cast<double>(std::lround(100 * raw / static_cast<double>(jpeg_bytes))) / 100;
   out.Put(DCM_LossyImageCompression, "01").Put(DCM_LossyImageCompressionMethod, "ISO_10918_1");
   out.Put(DCM_LossyImageCompressionRatio, detail::DecimalText(ratio));
 }
