@@ -1,0 +1,122 @@
+#include "analysis/head/detail/report.h"
+
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "analysis/head/angles.h"
+#include "analysis/head/detail/uncertainty.h"
+
+namespace striae::head::detail {
+namespace {
+
+constexpr double kCellMm = 30;        // correlation length of the Fourier stage's noise at 2 m, with a margin
+constexpr double kSingularTilt = 80;  // deg
+
+AngleArray AnglesOf(const Eigen::Matrix3d& rotation_in_subject) {
+  const HeadAngles a = Decompose(rotation_in_subject);
+  return {a.rotation.deg(), a.flexion.deg(), a.tilt.deg(), a.total.deg()};
+}
+
+nlohmann::json Part(const Fit& fit) {
+  return {{"residual_mm", fit.residual_mm},
+          {"overlap", fit.overlap},
+          {"visible", fit.visible},
+          {"observability_mm", Observability_mm(fit.pairs)},
+          {"points", fit.pairs.size()}};
+}
+
+}  // namespace
+
+std::optional<AngleArray> Uncertainties(const Fit& head, const Fit& torso, const Eigen::Matrix3d& subject_from_camera,
+                                        const Options& options) {
+  const auto heads = BootstrapRotations(head.pairs, kCellMm, options.resamples, options.seed);
+  const auto torsos = BootstrapRotations(torso.pairs, kCellMm, options.resamples, options.seed + 1);
+  if (heads.size() < 2 || heads.size() != torsos.size()) return std::nullopt;
+  const auto turn = [](const Eigen::Vector3d& v) {
+    return Eigen::AngleAxisd(v.norm(), v.norm() > 0 ? Eigen::Vector3d(v.normalized()) : Eigen::Vector3d::UnitX())
+        .toRotationMatrix();
+  };
+  const auto angles_with = [&](const Eigen::Vector3d& of_head, const Eigen::Vector3d& of_torso,
+                               const Eigen::Vector3d& of_axes) {
+    const Eigen::Matrix3d r = (turn(of_torso) * torso.target_from_patch.linear()).transpose() * turn(of_head) *
+                              head.target_from_patch.linear();
+    const Eigen::Matrix3d axes = turn(of_axes) * subject_from_camera;
+    return AnglesOf(axes * r * axes.transpose());
+  };
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  const AngleArray best = angles_with(none, none, none);
+  const auto difference = [&](const AngleArray& other, std::size_t k) {
+    return std::remainder(other[k] - best[k], 360.0);
+  };
+  AngleArray variance{};
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    const AngleArray sample = angles_with(heads[i], torsos[i], none);
+    for (std::size_t k = 0; k < 4; ++k) {
+      variance[k] += difference(sample, k) * difference(sample, k) / static_cast<double>(heads.size());
+    }
+  }
+  const double axes_sd_rad = Angle::Degrees(options.axes_sd_deg).rad();
+  for (int axis = 0; axis < 3; ++axis) {
+    const AngleArray sample = angles_with(none, none, axes_sd_rad * Eigen::Vector3d::Unit(axis));
+    for (std::size_t k = 0; k < 4; ++k) variance[k] += difference(sample, k) * difference(sample, k);
+  }
+  AngleArray sd{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    sd[k] = std::sqrt(variance[k] + options.floor_sd_deg * options.floor_sd_deg);
+    if (!std::isfinite(sd[k])) return std::nullopt;
+  }
+  return sd;
+}
+
+AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& rotation,
+                      const Eigen::Matrix3d& subject_from_camera, const AngleArray& sd, const Options& options) {
+  const std::array<Measurement, 4> names{{
+      {"rotation", {"99STRIAE", "HT-ROT", "Head rotation relative to torso, positive to subject's left"}},
+      {"flexion", {"99STRIAE", "HT-FLEX", "Head flexion relative to torso, positive chin to chest"}},
+      {"tilt", {"99STRIAE", "HT-TILT", "Head lateral tilt relative to torso, positive to subject's right"}},
+      {"total_angle", {"99STRIAE", "HT-TOTAL", "Total angle of head relative to torso"}},
+  }};
+  AnalysisReport report;
+  report.analysis = "head";
+  report.version = "1";
+  report.provenance.version = StriaeVersion();
+  report.provenance.parameters = {{"spacing_mm", options.spacing_mm},
+                                  {"least_overlap", options.least_overlap},
+                                  {"axes_sd_deg", options.axes_sd_deg},
+                                  {"floor_sd_deg", options.floor_sd_deg},
+                                  {"resamples", options.resamples},
+                                  {"seed", options.seed},
+                                  {"cell_mm", kCellMm},
+                                  {"largest_residual_mm", options.largest_residual_mm}};
+  const AngleArray angles = AnglesOf(subject_from_camera * rotation * subject_from_camera.transpose());
+  const bool singular = std::abs(angles[2]) > kSingularTilt;
+  nlohmann::json words = nlohmann::json::object();
+  for (std::size_t k = 0; k < 4; ++k) {
+    Measurement m = names[k];
+    m.value = angles[k];
+    m.unit = "deg";
+    m.uncertainty = sd[k];
+    if (singular && k < 3) {
+      m.status = Measurement::Status::kFlagged;
+      m.reason =
+          "beyond a tilt of 80 deg rotation and flexion cannot be told apart: use rotation_matrix and total_angle";
+    }
+    words[m.name] = InWords(m.name, m.value);
+    report.measurements.push_back(std::move(m));
+  }
+  nlohmann::json rows = nlohmann::json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({rotation(i, 0), rotation(i, 1), rotation(i, 2)});
+  report.details = {{"rotation_matrix", rows},
+                    {"axes_source", "camera"},
+                    {"sequence", "Z-X-Y intrinsic, ISB axes (X forward, Y up, Z right): extension, tilt, rotation"},
+                    {"words", words},
+                    {"head", Part(head)},
+                    {"torso", Part(torso)}};
+  report.details["residual_mm"] = {{"head", head.residual_mm}, {"torso", torso.residual_mm}};
+  report.details["overlap"] = {{"head", head.overlap}, {"torso", torso.overlap}};
+  return report;
+}
+
+}  // namespace striae::head::detail

@@ -1,0 +1,27 @@
+// From two registrations to angles, their uncertainties, and the report.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "analysis/head/detail/registration.h"
+#include "analysis/head/measure.h"
+#include "core/measurement.h"
+
+namespace striae::head::detail {
+
+/// rotation, flexion, tilt, total; deg.
+using AngleArray = std::array<double, 4>;
+
+/// Standard uncertainties of the four angles: resampled registrations, their floor, and the axes' own error. None where
+/// the pairs are too few to be resampled.
+std::optional<AngleArray> Uncertainties(const Fit& head, const Fit& torso, const Eigen::Matrix3d& subject_from_camera,
+                                        const Options& options);
+
+/// `rotation` = R_torso^T R_head in the neutral camera's frame.
+AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& rotation,
+                      const Eigen::Matrix3d& subject_from_camera, const AngleArray& sd, const Options& options);
+
+}  // namespace striae::head::detail
