@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "acquire/rig/files.h"
+#include "acquire/rig/photograph_file.h"
 
 namespace striae::rig::detail {
 

@@ -1,8 +1,7 @@
-// The virtual rig's files as bytes: a JPEG tagged as the D90 tags it, and depth as a float TIFF.
+// A simulated photograph as bytes: a JPEG tagged as the D90 tags it.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -22,10 +21,5 @@ struct CameraTags {
 /// JPEG with EXIF: NIKON CORPORATION, NIKON D90, 1/200 s, f/11, 50 mm, flash fired, the serial number in the MakerNote.
 /// The same input gives the same bytes. kUsage for an empty image, a quality outside 1..100 or unreadable tags.
 Result<std::vector<std::uint8_t>> EncodeJpeg(const ImageRgb& photograph, const CameraTags& tags, int quality = 92);
-
-/// One channel float32, NaN kept.
-Result<std::vector<std::uint8_t>> EncodeFloatTiff(const ImageF& image);
-/// 8-bit grey PNG: 255 where the mask is valid.
-Result<std::vector<std::uint8_t>> EncodeMaskPng(const Mask& mask);
 
 }  // namespace striae::rig
