@@ -94,24 +94,27 @@ std::string Differences(const json& row, const json& by_trail) {
 
 void CheckTable(Database& database, const std::string& table, CheckReport& report) {
   States states = StatesByTrail(database, table);
-  const auto ids = database.Rows("SELECT id FROM " + table, [](const RowView& row) { return row.Text(0); });
-  for (const std::string& id : ids) {
+  const auto add = [&](const std::string& id, std::string what) {
+    std::string where = table;
+    where.append(" ").append(id);
+    Add(report, Severity::kError, std::move(where), std::move(what));
+  };
+  const std::string select_ids = "SELECT id FROM " + table;
+  for (const std::string& id : database.Rows(select_ids, [](const RowView& row) { return row.Text(0); })) {
     const auto found = states.find(id);
     if (found == states.end()) {
-      Add(report, Severity::kError, table + " " + id,
-          "has no audit row: it was written past the record, or the trail was cut; restore a backup");
+      add(id, "has no audit row: it was written past the record, or the trail was cut; restore a backup");
       continue;
     }
     const std::string differences = Differences(RowAsJson(database, table, id), found->second);
     if (!differences.empty()) {
-      Add(report, Severity::kError, table + " " + id,
-          "was changed past the audit trail (" + differences + "); see 'striae history " + id + "', restore a backup");
+      std::string what = "was changed past the audit trail (";
+      what.append(differences).append("); see 'striae history ").append(id).append("', restore a backup");
+      add(id, std::move(what));
     }
     states.erase(found);
   }
-  for (const auto& [id, state] : states) {
-    Add(report, Severity::kError, table + " " + id, "is in the audit trail but not in the record; restore a backup");
-  }
+  for (const auto& [id, state] : states) add(id, "is in the audit trail but not in the record; restore a backup");
 }
 
 }  // namespace
