@@ -56,19 +56,21 @@ struct Chosen {
   ImageF lines;  ///< across the stripes
 };
 
-Result<Chosen> ChooseDirection(const ImageF& light, std::optional<StripeDirection> wanted) {
-  ImageF transposed = Transposed(light);
-  const auto down = detail::FindCarrier(transposed), along = detail::FindCarrier(light);
-  const auto none = [] {
+Result<Chosen> ChooseDirection(ImageF light, std::optional<StripeDirection> wanted) {
+  const bool try_horizontal = wanted.value_or(StripeDirection::kHorizontal) == StripeDirection::kHorizontal;
+  const bool try_vertical = wanted.value_or(StripeDirection::kVertical) == StripeDirection::kVertical;
+  ImageF transposed = try_horizontal ? Transposed(light) : ImageF();
+  const auto down = try_horizontal ? detail::FindCarrier(transposed) : std::nullopt;
+  const auto along = try_vertical ? detail::FindCarrier(light) : std::nullopt;
+  if (!down && !along) {
     return Fail(ErrorCode::kNoCarrier,
                 "no stripes are found in this photograph; check that the flash fired through the grating and that the "
                 "subject is in focus and within the measuring range");
-  };
-  const double down_prominence = down ? down->prominence : 0, along_prominence = along ? along->prominence : 0;
-  const bool horizontal = wanted ? *wanted == StripeDirection::kHorizontal : down_prominence >= along_prominence;
-  if (!(horizontal ? down : along)) return none();
-  if (horizontal) return Chosen{StripeDirection::kHorizontal, *down, std::move(transposed)};
-  return Chosen{StripeDirection::kVertical, *along, light};
+  }
+  if (down && (!along || down->prominence >= along->prominence)) {
+    return Chosen{StripeDirection::kHorizontal, *down, std::move(transposed)};
+  }
+  return Chosen{StripeDirection::kVertical, *along, std::move(light)};
 }
 
 Mask MaskOf(const AnalyticSignal& signal, double period_px, const PhaseOptions& options) {

@@ -113,12 +113,13 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
   stages.Done("order");
 
   const double slack_mm = options.outside_working_share * middle_mm;
+  const detail::RayTable rays(calibration.camera, order.width(), order.height());
   const ImageF depth =
-      detail::Triangulate(order, calibration, calibration.near_mm - slack_mm, calibration.far_mm + slack_mm);
+      detail::Triangulate(order, calibration, rays, calibration.near_mm - slack_mm, calibration.far_mm + slack_mm);
   stages.Done("triangulation");
   const ImageRgb colour = detail::ColourWithoutStripes(photograph.colour, order, phase->direction);
   stages.Done("colour");
-  out.surface = detail::BuildSurface(depth, colour, phase->modulation, calibration, options.faces);
+  out.surface = detail::BuildSurface(depth, colour, phase->modulation, calibration, rays, options.faces);
   stages.Done("mesh");
   if (out.surface.size() == 0) {
     return Fail(ErrorCode::kMeasurementRefused, "no point lies within the working distance of " +

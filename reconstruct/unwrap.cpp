@@ -1,12 +1,14 @@
 #include "reconstruct/unwrap.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "reconstruct/detail/parallel.h"
@@ -40,32 +42,78 @@ ImageF Unreliability(const ImageF& phase, const Mask& mask) {
   return d;
 }
 
-/// Edges in ascending order of weight, by counting sort on a logarithmic key (22 bits of a float's own bits). An edge
-/// is 2 * pixel for the one to the right, 2 * pixel + 1 for the one downwards.
-class SortedEdges {
+/// Edges in ascending order of weight, by a radix sort in two passes on a logarithmic key (22 bits of a float's own
+/// bits). An edge is 2 * pixel for the one to the right, 2 * pixel + 1 for the one downwards. Both passes are stable,
+/// and every block writes where its predecessors end: the order is that of one thread, however many there are.
+class EdgeSorter {
  public:
-  SortedEdges(const ImageF& d, const Mask& mask) : d_(d), mask_(mask) {
-    std::vector<std::uint32_t> starts(kKeys + 1, 0);
-    ForEach([&](std::uint32_t key, std::uint32_t) { ++starts[key + 1]; });
-    std::partial_sum(starts.begin(), starts.end(), starts.begin());
-    edges_.resize(starts.back());
-    ForEach([&](std::uint32_t key, std::uint32_t edge) { edges_[starts[key]++] = edge; });
+  EdgeSorter(const ImageF& d, const Mask& mask) : d_(d), mask_(mask), blocks_(detail::ThreadCount()) {}
+
+  [[nodiscard]] std::vector<std::uint32_t> Sorted() const {
+    Counts low(Blocks(), Digits{}), high(Blocks(), Digits{});
+    InBlocks(d_.height(), [&](std::size_t block, std::size_t first, std::size_t last) {
+      ForEach(first, last, [&](std::uint32_t key, std::uint32_t) { ++low[block][key % kDigits]; });
+    });
+    const std::size_t count = Starts(low);
+    std::vector<Half> half(count);
+    InBlocks(d_.height(), [&](std::size_t block, std::size_t first, std::size_t last) {
+      ForEach(first, last, [&](std::uint32_t key, std::uint32_t edge) {
+        half[low[block][key % kDigits]++] = {key / kDigits, edge};
+      });
+    });
+    InBlocks(count, [&](std::size_t block, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) ++high[block][half[i].high];
+    });
+    Starts(high);
+    std::vector<std::uint32_t> edges(count);
+    InBlocks(count, [&](std::size_t block, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) edges[high[block][half[i].high]++] = half[i].edge;
+    });
+    return edges;
   }
-  [[nodiscard]] const std::vector<std::uint32_t>& edges() const { return edges_; }
 
  private:
-  static constexpr std::uint32_t kKeys = 1U << 22;
+  static constexpr std::uint32_t kDigits = 1U << 11;
+  using Digits = std::array<std::uint32_t, kDigits>;
+  using Counts = std::vector<Digits>;
+  struct Half {
+    std::uint32_t high, edge;
+  };
 
   static std::uint32_t KeyOf(float weight) {
     constexpr std::uint32_t kSmallest = 0x30000000U;  // 4.7e-10: below it, edges are equally perfect
     const auto bits = std::bit_cast<std::uint32_t>(weight);
-    return bits < kSmallest ? 0 : std::min(kKeys - 1, (bits - kSmallest) >> 8);
+    return bits < kSmallest ? 0 : std::min(kDigits * kDigits - 1, (bits - kSmallest) >> 8);
+  }
+
+  [[nodiscard]] std::size_t Blocks() const { return static_cast<std::size_t>(blocks_); }
+
+  /// Calls body(block, first, last) with one block for each thread.
+  template <typename Body>
+  void InBlocks(std::size_t count, const Body& body) const {
+    detail::ParallelBlocks(
+        blocks_,
+        [&](int, int first, int last) {
+          for (auto block = static_cast<std::size_t>(first); block < static_cast<std::size_t>(last); ++block) {
+            body(block, count * block / Blocks(), count * (block + 1) / Blocks());
+          }
+        },
+        1);
+  }
+
+  /// Counts become the places where each block's edges of each digit start; returns the number of edges.
+  static std::size_t Starts(Counts& counts) {
+    std::uint32_t at = 0;
+    for (std::size_t digit = 0; digit < kDigits; ++digit) {
+      for (Digits& block : counts) at += std::exchange(block[digit], at);
+    }
+    return at;
   }
 
   template <typename Visit>
-  void ForEach(const Visit& visit) const {
+  void ForEach(std::size_t first_row, std::size_t last_row, const Visit& visit) const {
     const int width = d_.width(), height = d_.height();
-    for (int row = 0; row < height; ++row) {
+    for (int row = static_cast<int>(first_row); row < static_cast<int>(last_row); ++row) {
       const float *d = d_.Row(row), *below = row + 1 < height ? d_.Row(row + 1) : nullptr;
       const std::uint8_t *m = mask_.Row(row), *mask_below = below != nullptr ? mask_.Row(row + 1) : nullptr;
       const auto first = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(width);
@@ -80,13 +128,13 @@ class SortedEdges {
 
   const ImageF& d_;
   const Mask& mask_;
-  std::vector<std::uint32_t> edges_;
+  int blocks_;
 };
 
 /// Union-find whose elements carry a whole number of turns relative to their root.
 class Sheets {
  public:
-  explicit Sheets(std::size_t count) : parent_(count, -1), turns_(count, 0) {}
+  explicit Sheets(std::size_t count) : nodes_(count) {}
 
   struct Place {
     std::int32_t root, turns;
@@ -94,14 +142,14 @@ class Sheets {
   Place Find(std::int32_t element) {
     std::int32_t turns = 0;
     for (;;) {
-      const std::int32_t up = parent_[element];
-      if (up < 0) return {element, turns};
-      const std::int32_t above = parent_[up];
-      if (above < 0) return {up, turns + turns_[element]};
-      turns_[element] += turns_[up];  // path halving
-      parent_[element] = above;
-      turns += turns_[element];
-      element = above;
+      Node& node = At(element);
+      if (node.parent < 0) return {element, turns};
+      const Node& up = At(node.parent);
+      if (up.parent < 0) return {node.parent, turns + node.turns};
+      node.turns += up.turns;  // path halving
+      node.parent = up.parent;
+      turns += node.turns;
+      element = node.parent;
     }
   }
   /// Makes turns(b) = turns(a) + step.
@@ -109,17 +157,41 @@ class Sheets {
     const Place pa = Find(a), pb = Find(b);
     if (pa.root == pb.root) return;
     const std::int32_t between = pa.turns + step - pb.turns;
-    const bool a_larger = parent_[pa.root] <= parent_[pb.root];  // roots hold minus their size
+    const bool a_larger = At(pa.root).parent <= At(pb.root).parent;  // roots hold minus their size
     const std::int32_t keep = a_larger ? pa.root : pb.root, give = a_larger ? pb.root : pa.root;
-    parent_[keep] += parent_[give];
-    parent_[give] = keep;
-    turns_[give] = a_larger ? between : -between;
+    At(keep).parent += At(give).parent;
+    At(give) = {keep, a_larger ? between : -between};
   }
-  [[nodiscard]] std::int32_t SizeOfRoot(std::int32_t root) const { return -parent_[root]; }
+  [[nodiscard]] std::int32_t SizeOfRoot(std::int32_t root) { return -At(root).parent; }
+  void Prefetch(std::int32_t element) const { __builtin_prefetch(nodes_.data() + element); }
 
  private:
-  std::vector<std::int32_t> parent_, turns_;
+  struct Node {
+    std::int32_t parent = -1, turns = 0;
+  };
+  Node& At(std::int32_t element) { return nodes_[static_cast<std::size_t>(element)]; }
+  std::vector<Node> nodes_;
 };
+
+/// Kruskal's algorithm: the most reliable edges join first.
+void JoinAll(const std::vector<std::uint32_t>& edges, const ImageF& wrapped, Sheets& sheets) {
+  constexpr std::size_t kAhead = 24;  // edges come in no spatial order: memory is asked for in time
+  const float* phase = wrapped.pixels().data();
+  const auto end_of = [&](std::uint32_t edge) {
+    return static_cast<std::int32_t>(edge / 2) + ((edge & 1U) != 0 ? wrapped.width() : 1);
+  };
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i + kAhead < edges.size()) {
+      const std::uint32_t soon = edges[i + kAhead];
+      for (const std::int32_t pixel : {static_cast<std::int32_t>(soon / 2), end_of(soon)}) {
+        sheets.Prefetch(pixel);
+        __builtin_prefetch(phase + pixel);
+      }
+    }
+    const auto a = static_cast<std::int32_t>(edges[i] / 2), b = end_of(edges[i]);
+    sheets.Join(a, b, -static_cast<std::int32_t>(std::nearbyint((phase[b] - phase[a]) / kTwoPi)));
+  }
+}
 
 void Write(Sheets& sheets, const ImageF& wrapped, const Mask& mask, Unwrapped& out) {
   const auto count = static_cast<std::int32_t>(wrapped.size());
@@ -163,17 +235,7 @@ Unwrapped Unwrap(const ImageF& wrapped, const Mask& mask) {
   Unwrapped out{ImageF(wrapped.width(), wrapped.height(), std::numeric_limits<float>::quiet_NaN()),
                 Image<std::int32_t>(wrapped.width(), wrapped.height(), -1), 0};
   Sheets sheets(wrapped.size());
-  {
-    const ImageF d = Unreliability(wrapped, mask);
-    const SortedEdges sorted(d, mask);
-    const auto& phase = wrapped.pixels();
-    for (const std::uint32_t edge : sorted.edges()) {
-      const auto a = static_cast<std::int32_t>(edge / 2);
-      const std::int32_t b = a + ((edge & 1U) != 0 ? wrapped.width() : 1);
-      const float difference = phase[static_cast<std::size_t>(b)] - phase[static_cast<std::size_t>(a)];
-      sheets.Join(a, b, -static_cast<std::int32_t>(std::nearbyint(difference / kTwoPi)));
-    }
-  }
+  JoinAll(EdgeSorter(Unreliability(wrapped, mask), mask).Sorted(), wrapped, sheets);
   Write(sheets, wrapped, mask, out);
   return out;
 }

@@ -100,6 +100,23 @@ class LocalMean {
   double half_;
 };
 
+/// atan2 by a minimax polynomial of atan on [0, 1] (Abramowitz and Stegun 4.4.49), within 2e-8 of the true value before
+/// float's rounding (2.4e-7 rad, a billionth of a mm of depth); without branches, so that it runs on vectors.
+float ArcTangent(float y, float x) {
+  constexpr float kHalfTurn = std::numbers::pi_v<float>;
+  const float ax = std::abs(x), ay = std::abs(y);
+  const float a = std::min(ax, ay) / (std::max(ax, ay) + 1e-30F), s = a * a;
+  float r = 0.0028662257F;
+  for (const float c : {-0.0161657367F, 0.0429096138F, -0.0752896400F, 0.1065626393F, -0.1420889944F, 0.1999355085F,
+                        -0.3333314528F, 1.0F}) {
+    r = r * s + c;
+  }
+  r *= a;
+  r = ay > ax ? kHalfTurn / 2 - r : r;
+  r = x < 0 ? kHalfTurn - r : r;
+  return std::copysign(r, y);
+}
+
 std::vector<double> MeanPowerSpectrum(const ImageF& lines, int length) {
   constexpr int kMostLines = 192;
   const int step = std::max(1, lines.height() / kMostLines);
@@ -206,8 +223,9 @@ AnalyticSignal AnalyseLines(const ImageF& lines, double period_px, double half_w
       plans.Inverse(band.get(), spectrum.get());
       float *phase = out.phase.Row(line), *amplitude = out.amplitude.Row(line);
       for (int i = 0; i < width; ++i) {
-        phase[i] = std::atan2(spectrum[i][1], spectrum[i][0]);
-        amplitude[i] = std::hypot(spectrum[i][0], spectrum[i][1]);
+        const float re = spectrum[i][0], im = spectrum[i][1];
+        phase[i] = ArcTangent(im, re);
+        amplitude[i] = std::sqrt(re * re + im * im);
       }
     }
   });

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "core/optics.h"
 #include "reconstruct/detail/parallel.h"
 #include "reconstruct/detail/transpose.h"
@@ -108,15 +110,19 @@ void MeshRows(const ImageF& depth, int row, std::uint32_t start, std::uint32_t s
 
 }  // namespace
 
-ImageF Triangulate(const ImageF& order, const Calibration& calibration, double near_mm, double far_mm) {
+ImageF Triangulate(const ImageF& order, const Calibration& calibration, const RayTable& table, double near_mm,
+                   double far_mm) {
   const StripeOptics optics(calibration);
   ImageF depth(order.width(), order.height(), kNone);
-  ParallelLines(order.height(), [&](int row) {
-    for (int col = 0; col < order.width(); ++col) {
-      if (std::isnan(order(col, row))) continue;
-      const Eigen::Vector3d ray = RayOf(calibration.camera, {static_cast<double>(col), static_cast<double>(row)});
-      const auto z = optics.DepthAt(ray, order(col, row));
-      if (z && *z >= near_mm && *z <= far_mm) depth(col, row) = static_cast<float>(*z);
+  ParallelBlocks(order.height(), [&](int, int first, int last) {
+    std::vector<Eigen::Vector2d> rays;
+    for (int row = first; row < last; ++row) {
+      table.Row(row, rays);
+      for (int col = 0; col < order.width(); ++col) {
+        if (std::isnan(order(col, row))) continue;
+        const auto z = optics.DepthAt(rays[static_cast<std::size_t>(col)].homogeneous(), order(col, row));
+        if (z && *z >= near_mm && *z <= far_mm) depth(col, row) = static_cast<float>(*z);
+      }
     }
   });
   return depth;
@@ -133,7 +139,7 @@ ImageRgb ColourWithoutStripes(const ImageRgb& photograph, const ImageF& order, S
 }
 
 Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& modulation,
-                     const Calibration& calibration, bool faces) {
+                     const Calibration& calibration, const RayTable& table, bool faces) {
   Surface surface;
   surface.sensor_width_px = depth.width();
   surface.sensor_height_px = depth.height();
@@ -145,11 +151,12 @@ Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& 
   surface.col.resize(count);
   surface.row.resize(count);
   std::vector<std::vector<std::array<std::uint32_t, 3>>> row_faces(static_cast<std::size_t>(depth.height()));
-  ParallelLines(depth.height(), [&](int row) {
+  const auto fill_row = [&](int row, std::vector<Eigen::Vector2d>& rays) {
+    table.Row(row, rays);
     std::size_t at = starts[static_cast<std::size_t>(row)];
     for (int col = 0; col < depth.width(); ++col) {
       if (std::isnan(depth(col, row))) continue;
-      const Eigen::Vector3d ray = RayOf(calibration.camera, {static_cast<double>(col), static_cast<double>(row)});
+      const Eigen::Vector3d ray = rays[static_cast<std::size_t>(col)].homogeneous();
       surface.point_in_camera[at] = (static_cast<double>(depth(col, row)) * ray).cast<float>();
       surface.colour[at] = colour(col, row);
       surface.quality[at] = modulation(col, row);
@@ -161,6 +168,10 @@ Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& 
       MeshRows(depth, row, starts[static_cast<std::size_t>(row)], starts[static_cast<std::size_t>(row) + 1],
                1 / std::min(calibration.camera.fx, calibration.camera.fy), row_faces[static_cast<std::size_t>(row)]);
     }
+  };
+  ParallelBlocks(depth.height(), [&](int, int first, int last) {
+    std::vector<Eigen::Vector2d> rays;
+    for (int row = first; row < last; ++row) fill_row(row, rays);
   });
   for (const auto& list : row_faces) surface.faces.insert(surface.faces.end(), list.begin(), list.end());
   return surface;

@@ -4,12 +4,14 @@
 #include "core/calibration.h"
 #include "core/image.h"
 #include "core/surface.h"
+#include "reconstruct/detail/ray_table.h"
 
 namespace striae::reconstruct::detail {
 
 /// Depth z (mm) of every pixel whose absolute order is not NaN; NaN where the ray and the light do not meet between
 /// `near_mm` and `far_mm`.
-ImageF Triangulate(const ImageF& order, const Calibration& calibration, double near_mm, double far_mm);
+ImageF Triangulate(const ImageF& order, const Calibration& calibration, const RayTable& table, double near_mm,
+                   double far_mm);
 
 /// Colour without stripes: along every line across the stripes, the colours around the bright centres (whole orders)
 /// are interpolated across the dark between them. Where a line has no bright centre nearby, the photograph's own colour
@@ -19,6 +21,6 @@ ImageRgb ColourWithoutStripes(const ImageRgb& photograph, const ImageF& order, S
 /// Points in row-major order of their pixels, and two triangles for every 2 x 2 of neighbours (one where three are
 /// valid). Sides that run deeper than grazing incidence of 75 degrees explains are cut.
 Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& modulation,
-                     const Calibration& calibration, bool faces);
+                     const Calibration& calibration, const RayTable& table, bool faces);
 
 }  // namespace striae::reconstruct::detail
