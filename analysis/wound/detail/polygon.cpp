@@ -8,7 +8,8 @@ namespace striae::wound {
 
 PolygonField::PolygonField(const Polygon& polygon) : start_{0} {
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Eigen::Vector2d a = polygon[k], side = polygon[(k + 1) % polygon.size()] - a;
+    const Eigen::Vector2d& a = polygon[k];
+    const Eigen::Vector2d side = polygon[(k + 1) % polygon.size()] - a;
     const double length2 = side.squaredNorm();
     sides_.push_back({a.x(), a.y(), side.x(), side.y(), length2 > 0 ? 1 / length2 : 0});
     start_.push_back(start_.back() + std::sqrt(length2));
