@@ -1,8 +1,10 @@
 // striae measure wound SURFACE --outline OUTLINE: volume, areas and lengths of a wound.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "analysis/wound/wound.h"
 #include "app/command.h"
@@ -26,11 +28,17 @@ std::string Line(const Measurement& m) {
 
 std::string Text(const AnalysisReport& report) {
   std::string text = "Wound below the virtual skin (standard uncertainties):\n";
+  std::vector<std::string> reasons;  // each said once, with its number beside the values
   for (const Measurement& m : report.measurements) {
     text += Line(m);
-    if (m.status == Measurement::Status::kFlagged) text += " flagged: " + m.reason;
+    if (m.status == Measurement::Status::kFlagged) {
+      const auto known = std::find(reasons.begin(), reasons.end(), m.reason);
+      text += " flagged [" + std::to_string(known - reasons.begin() + 1) + "]";
+      if (known == reasons.end()) reasons.push_back(m.reason);
+    }
     text += '\n';
   }
+  for (std::size_t k = 0; k < reasons.size(); ++k) text += "  [" + std::to_string(k + 1) + "] " + reasons[k] + '\n';
   const auto& skin = report.details["skin"];
   char method[200];
   std::snprintf(method, sizeof method, "  skin: %s from a ring %.0f to %.0f mm outside the line, %.2f mm rms",
