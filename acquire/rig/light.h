@@ -11,7 +11,7 @@ namespace striae::rig {
 
 struct LightOptions {
   double ambient = 0.012;          ///< linear sensor value of a white body under room light alone
-  double flash = 1.15;             ///< of a white body facing the bright stripes at `reference_mm`
+  double flash = 1.35;             ///< of a white body facing the bright stripes at `reference_mm`
   double reference_mm = 1000;      ///< distance from the projector for `flash`
   double leak = 0.02;              ///< share of the light that the grating's chromium lets through
   double blur_stripes = 0.09;      ///< standard deviation of the projector's focus blur

@@ -60,11 +60,11 @@ double TorsoRelief(double angle, double y) {
   const double x = 190 * std::sin(angle);  // place across the chest
   if (std::cos(angle) <= 0) return 0;      // the front only
   const double front = SmootherStep(0, 0.4, std::cos(angle));
-  double relief = -7 * Bump(x, y, 0, 62, 11, 13);  // notch above the breastbone
+  double relief = -9 * Bump(x, y, 0, 62, 11, 13);  // notch above the breastbone
   for (const double side : {-1.0, 1.0}) {
     const double collar = 66 - 0.10 * std::abs(x);  // the collar bones rise outwards
-    relief += side * x > 0 ? 5 * SmootherStep(8, 30, std::abs(x)) * std::exp(-0.5 * std::pow((y - collar) / 6, 2)) : 0;
-    relief += (13 + side) * Bump(x, y, side * 78, 200 + 3 * side, 46, 42);  // breast muscles
+    relief += side * x > 0 ? 8 * SmootherStep(8, 30, std::abs(x)) * std::exp(-0.5 * std::pow((y - collar) / 6, 2)) : 0;
+    relief += (19 + 2 * side) * Bump(x, y, side * 78, 200 + 3 * side, 46, 42);  // breast muscles
   }
   relief -= 5 * std::exp(-0.5 * std::pow(x / 10, 2)) * SmootherStep(110, 170, y);  // furrow between them
   return relief * front;
@@ -90,7 +90,7 @@ TriangleMesh MakeHead(unsigned seed) {
       for (const double side : {-1.0, 1.0}) {  // ears: flaps of different size and height
         const double ear =
             Bump(p.z(), p.y(), 12, side > 0 ? 2 : -3, 8, side > 0 ? 19 : 17) * SmootherStep(0.5, 0.9, side * d.x());
-        p.x() += side * ear * (side > 0 ? 15 : 13);
+        p.x() += side * ear * (side > 0 ? 13 : 11);
         p.z() += 6 * ear;
       }
       const double lips = front * (Bump(p.x(), p.y(), 0, 51, 15, 5.5));
@@ -123,7 +123,7 @@ TriangleMesh MakeNeck(unsigned seed) {
 }
 
 TriangleMesh MakeTorso(unsigned seed) {
-  constexpr int kColumns = 1000, kRows = 420;
+  constexpr int kColumns = 1000, kRows = 560;
   TriangleMesh mesh;
   for (int row = 0; row < kRows; ++row) {
     const double t = static_cast<double>(row) / (kRows - 1);
