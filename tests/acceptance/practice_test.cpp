@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::Ran;
-using testing::Run;
+using testing::RunProgram;
 using testing::TempDir;
 using testing::TestData;
 
@@ -43,7 +43,7 @@ Surface ReadSurface(const fs::path& path) {
 }
 
 Ran Reconstruct(const fs::path& image, const std::string& rig, const fs::path& out) {
-  return Run(Program(), {"reconstruct", image.string(), "--calibration", TestData("practice/" + rig).string(), "--out",
+  return RunProgram(Program(), {"reconstruct", image.string(), "--calibration", TestData("practice/" + rig).string(), "--out",
                          out.string(), "--json"});
 }
 
@@ -114,7 +114,7 @@ TEST(Practice, LimbsAndTheirWoundsAtOneMetre) {
 
     std::ofstream(folder / "outline.json") << json{{"polygon_px", truth.at("outline_px")}};
     const Ran wound =
-        Run(Program(), {"measure", "wound", ply.string(), "--outline", (folder / "outline.json").string(), "--json"});
+        RunProgram(Program(), {"measure", "wound", ply.string(), "--outline", (folder / "outline.json").string(), "--json"});
     ASSERT_EQ(wound.exit_code, 0) << image << wound.err;
     const double volume = ValueOf(wound.Json(), "volume"), true_volume = truth.at("volume_ml");
     volume_errors.push_back(100 * std::abs(volume / true_volume - 1));
@@ -138,7 +138,7 @@ TEST(Practice, HeadAgainstTorsoAtTwoMetres) {
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const json& pose = poses[i];
     const Ran ran =
-        Run(Program(), {"measure", "head", surface_of(poses[0]).string(), surface_of(pose).string(), "--json"});
+        RunProgram(Program(), {"measure", "head", surface_of(poses[0]).string(), surface_of(pose).string(), "--json"});
     Eigen::Matrix3d truth, measured;
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) truth(r, c) = pose.at("rotation_matrix_camera").at(r).at(c);

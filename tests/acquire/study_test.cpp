@@ -87,7 +87,7 @@ class StudyCommands : public ::testing::Test {
   }
   [[nodiscard]] Ran Striae(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"-C", (folder_ / "trial").string()});
-    return testing::Run(fs::path(STRIAE_BINARY_DIR) / "striae", arguments);
+    return testing::RunProgram(fs::path(STRIAE_BINARY_DIR) / "striae", arguments);
   }
   [[nodiscard]] Ran Import(std::vector<std::string> more) const {
     more.insert(more.begin(), {"import", "--json", "--session", session_.ToString()});

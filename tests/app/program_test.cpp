@@ -74,7 +74,7 @@ TEST(Program, CompletionIsValidShellAndKnowsEveryCommand) {
   std::ofstream(folder / "striae.bash") << ran.out
                                         << "\nCOMP_WORDS=(striae measure wo); COMP_CWORD=2; _striae\n"
                                            "echo \"${COMPREPLY[@]}\"\n";
-  const Ran shell = testing::Run("bash", {(folder / "striae.bash").string()}, folder.path());
+  const Ran shell = testing::RunProgram("bash", {(folder / "striae.bash").string()}, folder.path());
   EXPECT_EQ(shell.exit_code, 0) << shell.err;
   EXPECT_EQ(shell.out, "wound\n");
 }

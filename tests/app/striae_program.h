@@ -6,7 +6,7 @@
 namespace striae::testing {
 
 inline Ran Striae(const std::vector<std::string>& arguments) {
-  return Run(std::filesystem::path(STRIAE_BINARY_DIR) / "striae", arguments);
+  return RunProgram(std::filesystem::path(STRIAE_BINARY_DIR) / "striae", arguments);
 }
 
 }  // namespace striae::testing

@@ -59,7 +59,7 @@ void Drain(Pipe& out, Pipe& err, Ran& ran) {
 
 }  // namespace
 
-Ran Run(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+Ran RunProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
         const std::filesystem::path& folder) {
   Pipe out, err;
   const pid_t child = fork();
