@@ -65,11 +65,18 @@ std::string HeadlinesHtml(const Section& section) {
   return html + "</div>\n";
 }
 
+/// The first visit has no change to show and needs less width than the others.
+std::string ColumnWidths(std::size_t visits) {
+  std::string html = "<colgroup><col class=\"quantity\">";
+  for (std::size_t i = 0; i < visits; ++i) html += i == 0 && visits < 4 ? "<col class=\"first\">" : "<col>";
+  return html + "</colgroup>\n";
+}
+
 // Explicit roles: on a narrow screen the table is laid out as blocks, which would take its meaning away.
 std::string TableHtml(const Section& section) {
-  std::string html =
-      "<table role=\"table\">\n<thead role=\"rowgroup\"><tr role=\"row\"><th role=\"columnheader\" "
-      "scope=\"col\">Quantity</th>";
+  std::string html = "<table role=\"table\">\n" + ColumnWidths(section.columns.size()) +
+                     "<thead role=\"rowgroup\"><tr role=\"row\"><th role=\"columnheader\" "
+                     "scope=\"col\">Quantity</th>";
   bool any_notes = false;
   for (const Column& column : section.columns) {
     const std::string below = column.date + " · " + column.day + (column.status.empty() ? "" : " · " + column.status);
@@ -84,7 +91,7 @@ std::string TableHtml(const Section& section) {
   };
   for (const Row& row : section.rows) {
     html += "<tr role=\"row\"><th role=\"rowheader\" scope=\"row\">" + Escape(row.label) +
-            (row.unit.empty() ? "" : Tag("span", "", " / " + Escape(row.unit))) + "</th>";
+            (row.unit.empty() ? "" : Tag("span", "", "\u00a0/\u00a0" + Escape(row.unit))) + "</th>";
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       const Cell& cell = row.cells[i];
       html += open_cell(i) + Tag("div", "value", Escape(cell.value) + FlagMark(cell)) + SecondLines(cell) + "</td>";

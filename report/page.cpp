@@ -32,8 +32,6 @@ std::string VisitsText(const std::vector<const VisitEntry*>& visits) {
 std::vector<Field> Header(const SubjectReport& subject) {
   const Study& study = subject.study;
   std::vector<Field> fields;
-  fields.push_back({"Study", study.title.empty() ? study.protocol : study.title});
-  fields.push_back({"Protocol", study.protocol});
   if (!study.sponsor.empty()) fields.push_back({"Sponsor", study.sponsor});
   fields.push_back({"Site", subject.site.name.empty() || subject.site.name == subject.site.code
                                 ? subject.site.code
@@ -116,7 +114,8 @@ std::vector<std::string> Footer(const SubjectReport& subject, bool angles) {
 Page BuildPage(const SubjectReport& subject) {
   Page page;
   page.title = subject.subject.pseudonym;
-  page.subtitle = subject.study.title.empty() ? subject.study.protocol : subject.study.title;
+  page.subtitle = "Study " + subject.study.protocol;
+  if (!subject.study.title.empty()) page.subtitle += ", " + subject.study.title;
   page.header = Header(subject);
   page.warnings = Warnings(subject.subject);
   for (const detail::Series& series : detail::GatherSeries(subject)) {

@@ -31,7 +31,7 @@ int Draw(cairo_t* context, const Page& page, int pages) {
     detail::DrawPlots(sheet, section);
     const bool last = i + 1 == page.sections.size();
     // Pictures of an earlier section stay small: the next one needs the page too.
-    detail::DrawPictures(sheet, section.pictures, last ? end : sheet.Room());
+    detail::DrawPictures(sheet, section.pictures, last ? end : 0, last);
   }
   if (page.sections.empty()) {
     sheet.Paragraph("Nothing has been captured for this subject yet.", 9, detail::kGrey, 6);

@@ -18,7 +18,7 @@ struct Known {
 constexpr std::array<Known, 14> kKnown = {{{"area", "Area", false, true},
                                            {"volume", "Volume", false, true},
                                            {"depth_mean", "Mean depth", false, false},
-                                           {"depth_p95", "Depth, 95th percentile", false, false},
+                                           {"depth_p95", "95th pct. of depth", false, false},
                                            {"depth_max", "Deepest point", false, false},
                                            {"length", "Length", false, false},
                                            {"width", "Width", false, false},

@@ -10,7 +10,7 @@
 namespace striae::report {
 
 struct Quantity {
-  std::string label;  ///< "Depth, 95th percentile"
+  std::string label;  ///< "95th pct. of depth"
   int order = 0;      ///< place in the table, smallest first; names that are not known come last
   Better better = Better::kNotDefined;
   bool headline = false;  ///< shown large and in the plot

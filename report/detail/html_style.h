@@ -35,6 +35,7 @@ th,td{text-align:left;vertical-align:top;padding:7px 10px 7px 0;border-bottom:1p
 thead th{border-bottom:2px solid var(--line);font-weight:600;padding-top:0}
 thead th span{display:block;font-weight:400;color:var(--grey);font-size:13px}
 tbody th{font-weight:600}tbody th span{font-weight:400;color:var(--grey)}
+col.quantity{width:22%}col.first{width:16%}
 .value{font-weight:500}
 tr.notes td{border-bottom:0;font-size:13px;color:var(--flag)}tr.notes th{border-bottom:0;color:var(--grey);font-weight:400}
 .note,figcaption{font-size:13px;color:var(--grey);margin:8px 0 0}

@@ -12,13 +12,13 @@ namespace {
 
 std::string Bold(const std::string& escaped) { return "<span weight=\"600\">" + escaped + "</span>"; }
 
-/// A picture inside a box, as large as fits, centred; as JPEG bytes in the file.
+/// A picture inside a box, as large as fits, at its upper left; as JPEG bytes in the file.
 void DrawPicture(Sheet& sheet, const std::vector<std::uint8_t>& bytes, const std::string& kind, double x, double top,
                  double width, double height) {
-  sheet.Box(x, top, width, height, 3, kSoft);
   const auto thumbnail = bytes.empty() ? Result<Thumbnail>(Fail(ErrorCode::kNotFound, "")) : MakeThumbnail(bytes);
   if (!thumbnail) {
     const std::string text = bytes.empty() ? "no " + kind : "the " + kind + " cannot be shown";
+    sheet.Box(x, top, width, height, 3, kSoft);
     sheet.TextAt(x + 6, top + height / 2 - 5, text, 6.6, width - 12, kGrey);
     return;
   }
@@ -30,8 +30,7 @@ void DrawPicture(Sheet& sheet, const std::vector<std::uint8_t>& bytes, const std
       [](void* p) { delete static_cast<std::vector<std::uint8_t>*>(p); }, data);
   cairo_t* context = sheet.context();
   cairo_save(context);
-  cairo_translate(context, x + (width - thumbnail->width_px * scale) / 2,
-                  top + (height - thumbnail->height_px * scale) / 2);
+  cairo_translate(context, x, top);
   cairo_scale(context, scale, scale);
   cairo_set_source_surface(context, image.get(), 0, 0);
   cairo_paint(context);
@@ -105,9 +104,9 @@ void DrawPlots(Sheet& sheet, const Section& section) {
   sheet.Paragraph(Escape(section.plot_caption), 6.6, kGrey, 6);
 }
 
-void DrawPictures(Sheet& sheet, const std::vector<PictureCard>& cards, double reserve) {
+void DrawPictures(Sheet& sheet, const std::vector<PictureCard>& cards, double reserve, bool grow) {
   constexpr std::size_t kMost = 4;
-  constexpr double kGap = 8, kCaption = 10, kLeast = 62, kAspect = 0.72;
+  constexpr double kGap = 8, kCaption = 10, kLeast = 58, kAspect = 0.72;
   for (std::size_t start = 0; start < cards.size(); start += kMost) {
     const std::size_t end = std::min(start + kMost, cards.size());
     const auto columns = static_cast<double>(std::clamp<std::size_t>(cards.size(), 2, kMost));
@@ -115,7 +114,7 @@ void DrawPictures(Sheet& sheet, const std::vector<PictureCard>& cards, double re
     const bool last = end == cards.size();
     sheet.Need(kCaption + 2 * kLeast + 10 + (last ? reserve : 0));
     const double room = sheet.Room() - (last ? reserve : 0) - kCaption - 10;
-    const double height = std::clamp(room / 2, kLeast, kAspect * width);
+    const double height = grow ? std::clamp(room / 2, kLeast, kAspect * width) : kLeast;
     for (std::size_t i = start; i < end; ++i) {
       const double x = Sheet::kLeft + static_cast<double>(i - start) * (width + kGap);
       sheet.TextAt(x, sheet.y(), Escape(cards[i].caption), 6.8, width, kGrey);

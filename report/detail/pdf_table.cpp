@@ -7,19 +7,35 @@
 namespace striae::report::detail {
 namespace {
 
-constexpr double kLabelWidth = 102, kPadRight = 7, kPad = 2.6;
+constexpr double kLabelWidth = 116, kPadRight = 7, kPad = 2;
+constexpr double kFirstWidth = 120, kOtherWidth = 210;
 constexpr std::size_t kMostColumns = 5;
 
 /// The visits [first, last) of a section as one table.
 struct Band {
   const Section& section;
   std::size_t first, last;
-  double column_width;
+  double first_width, column_width;  ///< the very first visit has no change to show and needs less
 
+  [[nodiscard]] double Width(std::size_t column) const { return column == 0 ? first_width : column_width; }
   [[nodiscard]] double X(std::size_t column) const {
-    return Sheet::kLeft + kLabelWidth + static_cast<double>(column - first) * column_width;
+    double x = Sheet::kLeft + kLabelWidth;
+    for (std::size_t c = first; c < column; ++c) x += Width(c);
+    return x;
   }
 };
+
+struct Widths {
+  double first, other;
+};
+
+/// All bands of a table have the same columns. With few visits the first column does not grow beyond its need.
+Widths WidthsFor(std::size_t columns) {
+  const double room = Sheet::kContent - kLabelWidth;
+  const auto count = static_cast<double>(std::min(columns, kMostColumns));
+  const double first = columns < 2 ? room : std::min(kFirstWidth, room / count);
+  return {first, columns < 2 ? room : std::min(kOtherWidth, (room - first) / (count - 1))};
+}
 
 std::string HeadMarkup(const Column& column) {
   std::string markup =
@@ -30,7 +46,7 @@ std::string HeadMarkup(const Column& column) {
 
 std::string LabelMarkup(const Row& row) {
   std::string markup = Span(Escape(row.label), 8, "600");
-  if (!row.unit.empty()) markup += Span(" / " + Escape(row.unit), 8, "", "#5f6e77");
+  if (!row.unit.empty()) markup += Span("\u00a0/\u00a0" + Escape(row.unit), 8, "", "#5f6e77");
   return markup;
 }
 
@@ -38,14 +54,15 @@ std::string LabelMarkup(const Row& row) {
 void DrawLine(Sheet& sheet, const Band& band, const std::string& label, const std::vector<std::string>& cells,
               double rule_pt) {
   double height = sheet.Measure(label, 8, kLabelWidth - kPadRight);
-  for (const std::string& cell : cells) {
-    height = std::max(height, cell.empty() ? 0 : sheet.Measure(cell, 8, band.column_width - kPadRight));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].empty()) continue;
+    height = std::max(height, sheet.Measure(cells[i], 8, band.Width(band.first + i) - kPadRight));
   }
   sheet.Need(height + 2 * kPad);
   sheet.TextAt(Sheet::kLeft, sheet.y() + kPad, label, 8, kLabelWidth - kPadRight);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (cells[i].empty()) continue;
-    sheet.TextAt(band.X(band.first + i), sheet.y() + kPad, cells[i], 8, band.column_width - kPadRight);
+    sheet.TextAt(band.X(band.first + i), sheet.y() + kPad, cells[i], 8, band.Width(band.first + i) - kPadRight);
   }
   sheet.Advance(height + 2 * kPad);
   if (rule_pt > 0) sheet.Rule(sheet.y(), kLineColour, rule_pt);
@@ -77,9 +94,8 @@ void DrawTable(Sheet& sheet, const Section& section) {
   if (section.rows.empty()) return;
   for (std::size_t first = 0; first < section.columns.size(); first += kMostColumns) {
     const std::size_t last = std::min(first + kMostColumns, section.columns.size());
-    // Two visits at least share the width, so that a single value does not float in an empty row.
-    const auto parts = static_cast<double>(std::clamp<std::size_t>(section.columns.size(), 2, kMostColumns));
-    DrawBand(sheet, {section, first, last, (Sheet::kContent - kLabelWidth) / parts});
+    const Widths widths = WidthsFor(section.columns.size());
+    DrawBand(sheet, {section, first, last, widths.first, widths.other});
     sheet.Advance(4);
   }
   for (const std::string& note : section.notes) sheet.Paragraph(Escape(note), 6.8, kGrey, 2);

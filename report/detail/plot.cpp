@@ -15,7 +15,7 @@ constexpr Rgb8 kInk{38, 50, 56}, kGrey{112, 125, 133}, kGrid{228, 233, 236}, kZe
     kWhite{255, 255, 255};
 // Distinct for the common colour blindnesses, and each with a marker of its own.
 constexpr std::array<Rgb8, 4> kColours = {{{38, 103, 163}, {181, 101, 29}, {46, 133, 110}, {122, 82, 148}}};
-constexpr double kTop = 24, kBottom = 30, kLeft = 34, kRight = 12;
+constexpr double kTop = 20, kBottom = 30, kLeft = 34, kRight = 12;
 constexpr double kSmall = 7, kText = 8;
 constexpr double kTwoSided95 = 1.96;
 
@@ -57,7 +57,7 @@ Range ValueRange(const std::vector<PlotLine>& lines) {
   }
   if (range.high - range.low <= 0) range.high = 1;
   const double step = NiceStep(range.high - range.low, 4);
-  return {std::floor(range.low / step - 1e-9) * step, std::ceil(range.high / step + 1e-9) * step};
+  return {std::floor(range.low / step + 1e-9) * step, std::ceil(range.high / step - 1e-9) * step};
 }
 
 /// Day and visit names below it, over all lines.
@@ -103,7 +103,7 @@ void DrawAxes(Drawing& drawing, const Frame& frame, const std::map<double, std::
 
 void DrawMarker(Drawing& drawing, Point at, std::size_t style, Rgb8 colour, bool flagged) {
   const Rgb8 fill = flagged ? kWhite : colour;
-  const double r = 2.9;
+  const double r = 2.2;
   if (style % 3 == 1) {
     drawing.Polygon({{at.x - r, at.y - r}, {at.x + r, at.y - r}, {at.x + r, at.y + r}, {at.x - r, at.y + r}}, fill,
                     colour, 1.2);

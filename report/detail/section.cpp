@@ -10,7 +10,7 @@
 namespace striae::report::detail {
 namespace {
 
-constexpr double kFullWidthPt = 531, kGapPt = 18, kPlotHeightPt = 132;
+constexpr double kFullWidthPt = 531, kGapPt = 18, kPlotHeightPt = 112;
 
 /// Letters for the distinct reasons of a section: a, b, ... z, aa, ab ...
 class Flags {

@@ -14,7 +14,7 @@ inline constexpr Rgb8 kInk{38, 50, 58}, kGrey{95, 110, 119}, kLineColour{225, 23
 class Sheet {
  public:
   static constexpr double kWidth = 595.276, kHeight = 841.89;
-  static constexpr double kLeft = 32, kRight = kWidth - 32, kTop = 30, kBottom = kHeight - 34;
+  static constexpr double kLeft = 32, kRight = kWidth - 32, kTop = 27, kBottom = kHeight - 31;
   static constexpr double kContent = kRight - kLeft;
 
   /// `page_note` is printed at the foot of each page before "page i of n" (`pages` = 0: not known yet).
