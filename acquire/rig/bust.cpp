@@ -30,7 +30,7 @@ TriangleMesh MakeBust(const BustOptions& options) {
   TriangleMesh bust = detail::MakeTorso(options.seed);
   Append(neck, bust);
   Append(head, bust);
-  const Eigen::Vector3d pivot(0, 0, options.distance_mm);
+  const Eigen::Vector3d pivot(0, options.pivot_y_mm, options.distance_mm);
   Move(options.torso_rotation, pivot + options.torso_shift_mm, bust);
   return bust;
 }

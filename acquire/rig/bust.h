@@ -7,6 +7,7 @@ namespace striae::rig {
 
 struct BustOptions {
   double distance_mm = 2000;  ///< depth of the neck's pivot
+  double pivot_y_mm = -55;    ///< its height: so high that the light's upper edge crosses the forehead
   Eigen::Matrix3d head_rotation =
       Eigen::Matrix3d::Identity();  ///< relative to the torso, camera axes of the neutral pose
   Eigen::Matrix3d torso_rotation = Eigen::Matrix3d::Identity();  ///< of the whole body about the pivot, camera axes

@@ -115,7 +115,7 @@ TEST(Bust, HeadAndTorsoMoveRigidlyByTheStatedRotations) {
   posed.torso_shift_mm = {6, -4, 9};
   const TriangleMesh neutral = MakeBust({}), moved = MakeBust(posed);
   ASSERT_EQ(neutral.vertex.size(), moved.vertex.size());
-  const Eigen::Vector3d pivot(0, 0, posed.distance_mm);
+  const Eigen::Vector3d pivot(0, posed.pivot_y_mm, posed.distance_mm);
   const Eigen::Matrix3d head = posed.torso_rotation * posed.head_rotation;
   int head_points = 0, torso_points = 0;
   for (std::size_t i = 0; i < neutral.vertex.size(); ++i) {
