@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "reconstruct/detail/fourier.h"
 #include "reconstruct/detail/mask.h"
@@ -73,13 +74,43 @@ Result<Chosen> ChooseDirection(ImageF light, std::optional<StripeDirection> want
   return Chosen{StripeDirection::kVertical, *along, std::move(light)};
 }
 
+/// Upper quartile of the modulation over the pixels whose amplitude is above the noise.
+float WellLitModulation(const AnalyticSignal& signal, float least_amplitude) {
+  constexpr std::size_t kStep = 37;  // a sample of the pixels will do
+  std::vector<float> modulations;
+  for (std::size_t i = 0; i < signal.amplitude.size(); i += kStep) {
+    const float amplitude = signal.amplitude.pixels()[i];
+    if (amplitude > 3 * least_amplitude)
+      modulations.push_back(amplitude / std::max(signal.background.pixels()[i], 1e-6F));
+  }
+  if (modulations.empty()) return 0;
+  const auto quartile = modulations.begin() + static_cast<long>(3 * modulations.size() / 4);
+  std::nth_element(modulations.begin(), quartile, modulations.end());
+  return std::min(1.0F, *quartile);
+}
+
+/// Takes out runs of valid pixels shorter than `least` along each line.
+void DropShortRuns(Mask& lines, int least) {
+  ParallelLines(lines.height(), [&](int line) {
+    std::uint8_t* m = lines.Row(line);
+    for (int x = 0; x < lines.width();) {
+      int end = x;
+      while (end < lines.width() && m[end] != 0) ++end;
+      if (end - x < least) std::fill(m + x, m + end, std::uint8_t{0});
+      x = end + 1;
+    }
+  });
+}
+
 Mask MaskOf(const AnalyticSignal& signal, double period_px, const PhaseOptions& options) {
   const ImageF plateau = detail::LineMaximum(signal.amplitude, static_cast<int>(std::lround(1.5 * period_px)));
   const int width = signal.amplitude.width(), height = signal.amplitude.height();
   Mask mask(width, height, 0);
   const auto share = static_cast<float>(options.least_plateau_share);
-  const auto modulation = static_cast<float>(options.least_modulation);
   const auto least = static_cast<float>(std::max(signal.noise / options.largest_phase_noise, 1e-5));
+  const float modulation =
+      std::max(static_cast<float>(options.least_modulation),
+               static_cast<float>(options.least_modulation_share) * WellLitModulation(signal, least));
   ParallelLines(height, [&](int line) {
     const float *amplitude = signal.amplitude.Row(line), *background = signal.background.Row(line),
                 *top = plateau.Row(line);
@@ -88,6 +119,7 @@ Mask MaskOf(const AnalyticSignal& signal, double period_px, const PhaseOptions& 
       m[x] = amplitude[x] > least && amplitude[x] > share * top[x] && amplitude[x] > modulation * background[x] ? 1 : 0;
     }
   });
+  DropShortRuns(mask, static_cast<int>(std::lround(options.least_run_periods * period_px)));
   return mask;
 }
 

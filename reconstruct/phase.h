@@ -16,9 +16,13 @@ struct PhaseOptions {
   std::optional<StripeDirection> direction;  ///< found when not given
   /// Half width of the Hann window over the carrier's frequency. Wider keeps edges, narrower removes noise.
   double window_half_width = 0.7;
-  /// Least amplitude against the local plateau (three periods along the line): at half of it, a silhouette's edge.
-  double least_plateau_share = 0.5;
-  double least_modulation = 0.08;     ///< amplitude over background
+  /// Least amplitude against the local plateau (three periods along the line). At a silhouette it falls to half.
+  double least_plateau_share = 0.4;
+  double least_modulation = 0.08;  ///< amplitude over background
+  /// Least modulation against that of the well lit parts (upper quartile): what no stripe reaches still shows a ghost
+  /// of the carrier along its outline, on dark and bright surfaces alike.
+  double least_modulation_share = 0.35;
+  double least_run_periods = 1.0;     ///< along a line across the stripes: a step of brightness gives a shorter ghost
   double largest_phase_noise = 0.35;  ///< rad, standard deviation expected from the sensor's noise
   int least_region_px = 400;          ///< smaller specks are dropped
 };
