@@ -17,9 +17,9 @@ TriangleMesh MakePlane(const PlaneOptions& options);
 Eigen::Vector3d PlaneNormal(const PlaneOptions& options);
 
 struct ReferencePlateOptions {
-  double width_mm = 260, height_mm = 220;
+  double width_mm = 420, height_mm = 350;         ///< larger than the lit field: the grating's edges show on it
   double cap_radius_mm = 24, cap_height_mm = 12;  ///< spherical caps towards the camera, on a grid
-  int columns = 4, rows = 3;
+  int columns = 6, rows = 5;
   double spacing_mm = 1;  ///< of the mesh
 };
 

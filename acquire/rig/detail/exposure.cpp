@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kBand = 16;
 constexpr int kCurveSteps = 1 << 14;
+constexpr float kLargest = 1 - 1e-6F;  // below 1, so that it falls into the last step
 
 /// SplitMix64 (Steele, Lea, Flood 2014): every row starts its own sequence, so threads do not matter.
 class Random {
@@ -39,9 +40,9 @@ class Random {
 };
 
 std::vector<std::uint8_t> SrgbCurve() {
-  std::vector<std::uint8_t> curve(kCurveSteps + 1);
-  for (int i = 0; i <= kCurveSteps; ++i) {
-    const double x = static_cast<double>(i) / kCurveSteps;
+  std::vector<std::uint8_t> curve(kCurveSteps);
+  for (int i = 0; i < kCurveSteps; ++i) {
+    const double x = (i + 0.5) / kCurveSteps;
     const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
     curve[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255 * encoded));
   }
@@ -57,8 +58,9 @@ std::vector<float> Kernel(double sigma) {
     weights.push_back(sigma > 0 ? std::exp(-0.5 * i * i / (sigma * sigma)) : 1);
     sum += (i == 0 ? 1 : 2) * weights.back();
   }
-  std::vector<float> kernel;
-  for (const double w : weights) kernel.push_back(static_cast<float>(w / sum));
+  std::vector<float> kernel(weights.size());
+  std::transform(weights.begin(), weights.end(), kernel.begin(),
+                 [sum](double w) { return static_cast<float>(w / sum); });
   return kernel;
 }
 
@@ -101,7 +103,7 @@ ImageRgb Expose(const Image<LinearRgb>& light, const SensorOptions& options, dou
                      (blurred(x, row - first + radius - i)[c] + blurred(x, row - first + radius + i)[c]);
           }
           if (options.noise) value += random.Normal() * std::sqrt(value / electrons + read_variance);
-          bytes[c] = curve[static_cast<std::size_t>(std::clamp(value, 0.0F, 1.0F) * kCurveSteps + 0.5F)];
+          bytes[c] = curve[static_cast<std::size_t>(std::clamp(value, 0.0F, kLargest) * kCurveSteps)];
         }
         picture(x, row) = {bytes[0], bytes[1], bytes[2]};
       }

@@ -56,9 +56,9 @@ bool Shader::Lit(const Sample& sample) const {
   const Eigen::Vector3d point = sample.depth_mm * sample.ray;
   const auto order = optics_.OrderAt(point);
   if (!order || *order < -0.25 || *order > stripes_ - 0.75) return false;
-  LightOptions bare = options_;
-  return projector_.At(point) > 0.25 * bare.flash * bare.reference_mm * bare.reference_mm /
-                                    (point - calibration_.projector.center_mm).squaredNorm();
+  const double centre_mm = (point - calibration_.projector.center_mm).norm();
+  const double unmasked = options_.flash * std::pow(options_.reference_mm / centre_mm, 2);
+  return projector_.At(point) > 0.25 * unmasked;  // half of it at the mask's edge, less some vignetting
 }
 
 Eigen::Vector3f Shader::Smooth(const Sample& centre, const Eigen::Vector3d& step) const {
