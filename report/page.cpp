@@ -1,5 +1,7 @@
 #include "report/page.h"
 
+#include <algorithm>
+
 #include "report/detail/section.h"
 #include "report/detail/series.h"
 #include "report/format.h"
@@ -118,7 +120,12 @@ Page BuildPage(const SubjectReport& subject) {
   if (!subject.study.title.empty()) page.subtitle += ", " + subject.study.title;
   page.header = Header(subject);
   page.warnings = Warnings(subject.subject);
-  for (const detail::Series& series : detail::GatherSeries(subject)) {
+  const std::vector<detail::Series> all = detail::GatherSeries(subject);
+  const auto has_values = [](const detail::Series& series) { return !series.names.empty(); };
+  const bool any_values = std::any_of(all.begin(), all.end(), has_values);
+  for (const detail::Series& series : all) {
+    // Without a single value it has no table and no plot; why is said under "Missing and failed".
+    if (any_values && !has_values(series)) continue;
     page.sections.push_back(detail::MakeSection(series, subject.head_goal));
   }
   page.missing = Missing(subject);
