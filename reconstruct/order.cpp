@@ -231,6 +231,9 @@ std::optional<RegionOrder> FromNeighbours(const CoarseDepth& depth, int region) 
   found.source = OrderSource::kBridge;
   found.offset = static_cast<int>(std::lround(expected));
   found.margin = 1 - 2 * std::abs(expected - found.offset);
+  found.warning =
+      "its whole stripe number continues the depth of the surface beside it; a step of half a stripe or more between "
+      "them would go unseen";
   return found;
 }
 
