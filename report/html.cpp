@@ -40,11 +40,19 @@ std::string FlagMark(const Cell& cell) {
   return cell.flag.empty() ? "" : " " + Tag("span", "flag", "flag " + Escape(cell.flag));
 }
 
+std::string PartsHtml(const std::vector<std::string>& parts) {
+  std::string html;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    html += (i == 0 ? "" : " ") + Tag("span", "part", Escape(parts[i]) + (i + 1 < parts.size() ? ";" : ""));
+  }
+  return html;
+}
+
 std::string HeaderHtml(const Page& page) {
   std::string html = "<header>\n" + Tag("h1", "", "Subject " + Escape(page.title)) + "\n" +
                      Tag("p", "subtitle", Escape(page.subtitle)) + "\n<dl>\n";
   for (const Field& field : page.header) {
-    html += Tag("div", "", Tag("dt", "", Escape(field.label)) + Tag("dd", "", Escape(field.value))) + "\n";
+    html += Tag("div", "", Tag("dt", "", Escape(field.label)) + Tag("dd", "", PartsHtml(field.parts))) + "\n";
   }
   html += "</dl>\n";
   for (const std::string& warning : page.warnings) html += Tag("p", "warning", Escape(warning)) + "\n";

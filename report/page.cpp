@@ -10,38 +10,34 @@
 namespace striae::report {
 namespace {
 
-std::string Join(const std::vector<std::string>& lines, const std::string& otherwise) {
-  if (lines.empty()) return otherwise;
-  std::string text;
-  for (const std::string& line : lines) text += (text.empty() ? "" : "; ") + line;
-  return text;
-}
+using Parts = std::vector<std::string>;
 
-std::string VisitsText(const std::vector<const VisitEntry*>& visits) {
-  if (visits.empty()) return "none";
-  std::string text;
+Parts OrElse(const Parts& parts, const std::string& otherwise) { return parts.empty() ? Parts{otherwise} : parts; }
+
+Parts VisitParts(const std::vector<const VisitEntry*>& visits) {
+  Parts parts;
   for (const VisitEntry* visit : visits) {
-    text += (text.empty() ? "" : "; ") + visit->name + " " + visit->date.ToString();
+    std::string text = visit->name + " " + visit->date.ToString();
     if (!visit->missing.empty()) {
       text += " (missed)";
     } else if (!visit->status.empty()) {
       text += " (" + visit->status + ")";
     }
+    parts.push_back(text);
   }
-  return text;
+  return OrElse(parts, "none");
 }
 
 std::vector<Field> Header(const SubjectReport& subject) {
   const Study& study = subject.study;
   std::vector<Field> fields;
-  if (!study.sponsor.empty()) fields.push_back({"Sponsor", study.sponsor});
-  fields.push_back({"Site", subject.site.name.empty() || subject.site.name == subject.site.code
-                                ? subject.site.code
-                                : subject.site.code + ", " + subject.site.name});
-  fields.push_back({"Visits", VisitsText(detail::InOrder(subject))});
-  fields.push_back({"Device", Join(subject.devices, "not recorded")});
-  fields.push_back({"Calibration", Join(subject.calibrations, "not recorded")});
-  fields.push_back({"Software", "striae " + subject.software_version});
+  if (!study.sponsor.empty()) fields.push_back({"Sponsor", {study.sponsor}});
+  const Site& site = subject.site;
+  fields.push_back({"Site", {site.name.empty() || site.name == site.code ? site.code : site.code + ", " + site.name}});
+  fields.push_back({"Visits", VisitParts(detail::InOrder(subject))});
+  fields.push_back({"Device", OrElse(subject.devices, "not recorded")});
+  fields.push_back({"Calibration", OrElse(subject.calibrations, "not recorded")});
+  fields.push_back({"Software", {"striae " + subject.software_version}});
   return fields;
 }
 

@@ -12,7 +12,8 @@
 namespace striae::report {
 
 struct Field {
-  std::string label, value;
+  std::string label;
+  std::vector<std::string> parts;  ///< set with "; " between them, lines broken between parts rather than inside one
 };
 
 /// One visit's value of one quantity. Every text is empty where there is nothing to say.

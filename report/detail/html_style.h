@@ -16,7 +16,7 @@ h3{font-size:14px;margin:26px 0 8px;font-weight:600;color:var(--grey)}
 .subtitle{margin:2px 0 18px;color:var(--grey);font-size:16px}
 dl{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:8px 36px;margin:0;padding:14px 0;border-top:2px solid var(--accent);border-bottom:1px solid var(--line)}
 dl div{display:grid;grid-template-columns:92px minmax(0,1fr);gap:10px;font-size:14px}
-dt{color:var(--grey)}dd{margin:0;overflow-wrap:anywhere}
+dt{color:var(--grey)}dd{margin:0;overflow-wrap:anywhere}.part{display:inline-block}
 .warning{margin:16px 0 0;padding:10px 14px;border-left:4px solid var(--bad);background:#fbefec;font-weight:600}
 .headlines{display:flex;flex-wrap:wrap;gap:12px}
 .headline{flex:1 1 190px;background:var(--soft);border-radius:8px;padding:12px 16px}
@@ -42,12 +42,11 @@ tr.notes td{border-bottom:0;font-size:13px;color:var(--flag)}tr.notes th{border-
 figure{margin:0}
 .plots{display:flex;flex-wrap:wrap;gap:18px;margin-top:24px}
 .plots>svg{flex:1 1 300px;min-width:0;width:100%;height:auto;font-family:inherit}
-.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(280px,1fr));gap:18px;margin-top:22px}
+.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(250px,1fr));gap:20px;margin-top:22px}
 .card{break-inside:avoid}
-.card .pair{display:flex;gap:4px;align-items:center;background:var(--soft);border-radius:6px;overflow:hidden}
-.card img{display:block;min-width:0;width:100%;height:190px;object-fit:contain;background:#fff;border:1px solid var(--line);border-radius:6px}
-.card .pair>*{flex:1 1 0;min-width:0}
-.lost{padding:24px 12px;font-size:13px;color:var(--grey);text-align:center}
+.card .pair{display:grid;gap:6px}
+.card img{display:block;width:100%;height:auto;max-height:300px;object-fit:contain;object-position:left top}
+.lost{padding:24px 12px;background:var(--soft);border-radius:6px;font-size:13px;color:var(--grey);text-align:center}
 ul{margin:0;padding-left:20px;font-size:14px}li{margin:3px 0;overflow-wrap:anywhere}
 footer{margin-top:34px;padding-top:12px;border-top:1px solid var(--line);font-size:12.5px;color:var(--grey)}
 footer p{margin:0 0 5px}
@@ -67,7 +66,7 @@ h1{font-size:17pt}h2{font-size:11.5pt;margin:10pt 0 5pt;break-after:avoid}h3{fon
 .headline{padding:5pt 9pt}.headline .big{font-size:12.5pt}.headline .big small{font-size:8pt}.headline .name,.second,.words{font-size:7.2pt}
 table{font-size:7.9pt;margin-top:7pt}th,td{padding:2.6pt 6pt 2.6pt 0}tr{break-inside:avoid}thead th span,tr.notes td,.flag{font-size:7.2pt}
 .plots{margin-top:9pt;flex-wrap:nowrap;break-inside:avoid}.note,figcaption{font-size:7pt;margin-top:3pt}
-.pictures{grid-template-columns:repeat(3,minmax(0,1fr));gap:8pt;margin-top:8pt}.card img{height:82pt}
+.pictures{grid-template-columns:repeat(3,minmax(0,1fr));gap:8pt;margin-top:8pt}.card .pair{grid-template-columns:1fr 1fr;align-items:start}.card img{max-height:70pt}
 ul{font-size:7.6pt;padding-left:12pt}li{margin:1pt 0}footer{margin-top:9pt;padding-top:4pt;font-size:6.6pt}footer p{margin:0 0 2pt}
 }
 )css";

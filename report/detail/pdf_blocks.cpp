@@ -12,6 +12,18 @@ namespace {
 
 std::string Bold(const std::string& escaped) { return "<span weight=\"600\">" + escaped + "</span>"; }
 
+/// Parts stay whole unless they are longer than a line might be.
+std::string PartsMarkup(const std::vector<std::string>& parts) {
+  constexpr std::size_t kLongest = 40;
+  std::string markup;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string text = Escape(parts[i]) + (i + 1 < parts.size() ? ";" : "");
+    markup += i == 0 ? "" : " ";
+    markup += text.size() > kLongest ? text : "<span allow_breaks=\"false\">" + text + "</span>";
+  }
+  return markup;
+}
+
 /// A picture inside a box, as large as fits, at its upper left; as JPEG bytes in the file.
 void DrawPicture(Sheet& sheet, const std::vector<std::uint8_t>& bytes, const std::string& kind, double x, double top,
                  double width, double height) {
@@ -51,8 +63,8 @@ void DrawHeader(Sheet& sheet, const Page& page) {
     for (std::size_t j = i; j < std::min(i + 2, page.header.size()); ++j) {
       const double x = Sheet::kLeft + static_cast<double>(j - i) * (half + kGap);
       sheet.TextAt(x, sheet.y(), Escape(page.header[j].label), kSize, kLabel, kGrey);
-      height =
-          std::max(height, sheet.TextAt(x + kLabel, sheet.y(), Escape(page.header[j].value), kSize, half - kLabel));
+      height = std::max(height,
+                        sheet.TextAt(x + kLabel, sheet.y(), PartsMarkup(page.header[j].parts), kSize, half - kLabel));
     }
     sheet.Advance(height + 2.2);
   }
@@ -106,22 +118,31 @@ void DrawPlots(Sheet& sheet, const Section& section) {
 
 void DrawPictures(Sheet& sheet, const std::vector<PictureCard>& cards, double reserve, bool grow) {
   constexpr std::size_t kMost = 4;
-  constexpr double kGap = 8, kCaption = 10, kLeast = 58, kAspect = 0.72;
+  constexpr double kGap = 10, kInner = 4, kCaption = 11, kAfter = 8, kLeast = 52, kAspect = 0.72;
   for (std::size_t start = 0; start < cards.size(); start += kMost) {
     const std::size_t end = std::min(start + kMost, cards.size());
+    const double kept = end == cards.size() ? reserve : 0;
     const auto columns = static_cast<double>(std::clamp<std::size_t>(cards.size(), 2, kMost));
     const double width = (Sheet::kContent - kGap * (columns - 1)) / columns;
-    const bool last = end == cards.size();
-    sheet.Need(kCaption + 2 * kLeast + 10 + (last ? reserve : 0));
-    const double room = sheet.Room() - (last ? reserve : 0) - kCaption - 10;
-    const double height = grow ? std::clamp(room / 2, kLeast, kAspect * width) : kLeast;
+    const double half = (width - kInner) / 2;
+    sheet.Need(kCaption + kLeast + kAfter + kept);
+    const double room = sheet.Room() - kept - kCaption - kAfter;
+    const double beside = std::min(room, kAspect * half);
+    const double stacked = grow ? std::min((room - kInner) / 2, kAspect * width) : 0;
+    const bool one_above_other = stacked > beside;
+    const double height = one_above_other ? stacked : beside;
     for (std::size_t i = start; i < end; ++i) {
       const double x = Sheet::kLeft + static_cast<double>(i - start) * (width + kGap);
+      const double top = sheet.y() + kCaption;
       sheet.TextAt(x, sheet.y(), Escape(cards[i].caption), 6.8, width, kGrey);
-      DrawPicture(sheet, cards[i].photograph, "photograph", x, sheet.y() + kCaption, width, height);
-      DrawPicture(sheet, cards[i].depth_map, "depth map", x, sheet.y() + kCaption + height + 4, width, height);
+      DrawPicture(sheet, cards[i].photograph, "photograph", x, top, one_above_other ? width : half, height);
+      if (one_above_other) {
+        DrawPicture(sheet, cards[i].depth_map, "depth map", x, top + height + kInner, width, height);
+      } else {
+        DrawPicture(sheet, cards[i].depth_map, "depth map", x + half + kInner, top, half, height);
+      }
     }
-    sheet.Advance(kCaption + 2 * height + 10);
+    sheet.Advance(kCaption + (one_above_other ? 2 * height + kInner : height) + kAfter);
   }
 }
 
