@@ -103,20 +103,26 @@ void DropShortRuns(Mask& lines, int least) {
 }
 
 Mask MaskOf(const AnalyticSignal& signal, double period_px, const PhaseOptions& options) {
-  const ImageF plateau = detail::LineMaximum(signal.amplitude, static_cast<int>(std::lround(1.5 * period_px)));
+  const int near = static_cast<int>(std::lround(1.5 * period_px)), far = static_cast<int>(std::lround(3 * period_px));
+  const ImageF plateau = detail::LineMaximum(signal.amplitude, near, near);
+  const ImageF before = detail::LineMaximum(signal.amplitude, far, 0);
+  const ImageF after = detail::LineMaximum(signal.amplitude, 0, far);
   const int width = signal.amplitude.width(), height = signal.amplitude.height();
   Mask mask(width, height, 0);
   const auto share = static_cast<float>(options.least_plateau_share);
+  const auto share_between = static_cast<float>(options.least_share_between);
   const auto least = static_cast<float>(std::max(signal.noise / options.largest_phase_noise, 1e-5));
   const float modulation =
       std::max(static_cast<float>(options.least_modulation),
                static_cast<float>(options.least_modulation_share) * WellLitModulation(signal, least));
   ParallelLines(height, [&](int line) {
     const float *amplitude = signal.amplitude.Row(line), *background = signal.background.Row(line),
-                *top = plateau.Row(line);
+                *top = plateau.Row(line), *left = before.Row(line), *right = after.Row(line);
     std::uint8_t* m = mask.Row(line);
     for (int x = 0; x < width; ++x) {
-      m[x] = amplitude[x] > least && amplitude[x] > share * top[x] && amplitude[x] > modulation * background[x] ? 1 : 0;
+      const bool between = std::min(left[x], right[x]) > share * top[x];
+      const float needed = (between ? share_between : share) * top[x];
+      m[x] = amplitude[x] > least && amplitude[x] > needed && amplitude[x] > modulation * background[x] ? 1 : 0;
     }
   });
   DropShortRuns(mask, static_cast<int>(std::lround(options.least_run_periods * period_px)));

@@ -51,7 +51,7 @@ void Collect(Mask& mask, int seed, std::vector<int>& pixels) {
 
 }  // namespace
 
-ImageF LineMaximum(const ImageF& lines, int reach) {
+ImageF LineMaximum(const ImageF& lines, int before, int after) {
   const int width = lines.width();
   ImageF out(width, lines.height());
   ParallelLines(lines.height(), [&](int line) {
@@ -59,14 +59,14 @@ ImageF LineMaximum(const ImageF& lines, int reach) {
     float* to = out.Row(line);
     std::vector<int> falling;  // indices of candidates, their values falling
     std::size_t head = 0;
-    for (int x = 0; x < width + reach; ++x) {
+    for (int x = 0; x < width + after; ++x) {
       if (x < width) {
         while (falling.size() > head && in[falling.back()] <= in[x]) falling.pop_back();
         falling.push_back(x);
       }
-      const int center = x - reach;
+      const int center = x - after;
       if (center < 0) continue;
-      while (falling[head] < center - reach) ++head;
+      while (falling[head] < center - before) ++head;
       to[center] = in[falling[head]];
     }
   });

@@ -7,8 +7,8 @@
 
 namespace striae::reconstruct::detail {
 
-/// Largest value within `reach` pixels to either side along each line.
-ImageF LineMaximum(const ImageF& lines, int reach);
+/// Largest value from `before` pixels before to `after` pixels after, along each line.
+ImageF LineMaximum(const ImageF& lines, int before, int after);
 
 /// Breaks bridges thinner than about three pixels (3 x 3 opening), then drops connected regions (4-neighbours) of fewer
 /// than `least_px` pixels.
