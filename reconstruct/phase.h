@@ -20,7 +20,7 @@ struct PhaseOptions {
   double least_plateau_share = 0.4;
   /// The same where the stripes are bright again on both sides within three periods: a crater's wall or a dark logo
   /// dims them without ending the surface.
-  double least_share_between = 0.12;
+  double least_share_between = 0.2;
   double least_modulation = 0.08;  ///< amplitude over background
   /// Least modulation against that of the well lit parts (upper quartile): what no stripe reaches still shows a ghost
   /// of the carrier along its outline, on dark and bright surfaces alike.
