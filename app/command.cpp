@@ -27,6 +27,7 @@ CLI::App& Group(CLI::App& root, const std::string& name, const std::string& desc
     return *group;
   }
   CLI::App* group = root.add_subcommand(name, description);
+  group->footer("Each explains itself: striae " + name + " COMMAND --help");
   group->require_subcommand(1);
   return *group;
 }

@@ -15,8 +15,8 @@ namespace striae::app {
 /// Options that every command shares, and the way out for what it says.
 class Context {
  public:
-  bool json = false;             ///< --json: exactly one JSON document on stdout
-  std::filesystem::path study;   ///< -C DIR; the current folder when not given
+  bool json = false;            ///< --json: exactly one JSON document on stdout
+  std::filesystem::path study;  ///< -C DIR; the current folder when not given
 
   /// The command's result: `document` with --json, else `text` (a final newline is added). Call exactly once.
   void Output(const nlohmann::json& document, const std::string& text);

@@ -30,12 +30,17 @@ std::string_view ToString(Intake::State state) {
   return "unreadable";
 }
 
-/// The range of the device with the photograph's serial; small when the record does not know the body.
+/// The range of the device with the photograph's serial; for a body with both, or one that the record does not know,
+/// what the photograph is for decides: heads are photographed at 2 m.
 RigRange RangeFor(store::Record& record, const acquire::IngestItem& item) {
+  const auto kind = item.binding ? item.binding->role.kind : CaptureRole::Kind::kUnassigned;
+  const bool head = kind == CaptureRole::Kind::kNeutral || kind == CaptureRole::Kind::kPose;
   const auto metadata = acquire::ReadMetadata(item.bytes);
-  if (!metadata || metadata->body_serial.empty()) return RigRange::kSmall;
-  const auto device = record.DeviceBySerial(metadata->body_serial);
-  return device ? device->range : RigRange::kSmall;
+  const auto device = metadata && !metadata->body_serial.empty()
+                          ? record.DeviceBySerial(metadata->body_serial)
+                          : Result<Device>(Fail(ErrorCode::kNotFound, "no serial"));
+  if (device) return device->range;
+  return head ? RigRange::kLarge : RigRange::kSmall;
 }
 
 /// A name that is safe in a folder: what a card calls its files may be anything.

@@ -153,8 +153,8 @@ std::string_view ToString(StripeDirection direction) {
 
 Result<Calibration> CalibrationFromJson(std::string_view text) {
   const auto bad = [](const std::string& what) {
-    return Fail(ErrorCode::kBadCalibration, "not a usable calibration: " + what +
-                                                "; calibrate the rig again or restore the file from the study");
+    return Fail(ErrorCode::kBadCalibration,
+                "not a usable calibration: " + what + "; calibrate the rig again or restore the file from the study");
   };
   try {
     const json root = json::parse(text);

@@ -23,11 +23,11 @@ struct CameraModel {
 struct ProjectorModel {
   enum class Kind { kPinhole, kAngular };
   Kind kind = Kind::kPinhole;
-  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();            ///< in the camera frame
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();           ///< in the camera frame
   Eigen::Vector3d rotation_rodrigues = Eigen::Vector3d::Zero();  ///< camera to projector, rad; pinhole only
-  double focal_stripes = 0;  ///< focal length over grating period; pinhole only
-  double center_order = 0;   ///< stripe order on the projector's axis; pinhole only
-  double k1 = 0;             ///< radial distortion, ideal to distorted mask coordinate; pinhole only
+  double focal_stripes = 0;                                      ///< focal length over grating period; pinhole only
+  double center_order = 0;                                       ///< stripe order on the projector's axis; pinhole only
+  double k1 = 0;                       ///< radial distortion, ideal to distorted mask coordinate; pinhole only
   double a0_rad = 0, delta_a_rad = 0;  ///< angle of order 0 and per order, positive downwards; angular only
 };
 

@@ -17,8 +17,7 @@ template <typename T>
 class Image {
  public:
   Image() = default;
-  Image(int width, int height, T fill = T{})
-      : width_(width), height_(height), pixels_(Count(width, height), fill) {}
+  Image(int width, int height, T fill = T{}) : width_(width), height_(height), pixels_(Count(width, height), fill) {}
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -52,8 +51,8 @@ using ImageRgb = Image<Rgb8>;
 
 /// A decoded photograph, in sensor orientation (EXIF Orientation is never applied).
 struct Photograph {
-  ImageF luminance;  ///< 0..1 as encoded (sRGB not linearised)
-  ImageRgb colour;   ///< 8 bit; grey inputs have r = g = b
+  ImageF luminance;               ///< 0..1 as encoded (sRGB not linearised)
+  ImageRgb colour;                ///< 8 bit; grey inputs have r = g = b
   float saturation_level = 1.0F;  ///< luminance at and above which a pixel carries no information
 };
 

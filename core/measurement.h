@@ -19,14 +19,14 @@ struct Code {
 
 struct Measurement {
   enum class Status { kOk, kFlagged };
-  std::string name;         ///< local name, e.g. "volume" (CONTRACT)
-  Code code;                ///< the quantity
+  std::string name;               ///< local name, e.g. "volume" (CONTRACT)
+  Code code;                      ///< the quantity
   std::vector<Code> equivalents;  ///< same meaning in other schemes
-  double value = 0;         ///< finite always
-  std::string unit;         ///< UCUM: "mL", "cm2", "mm", "deg"
-  double uncertainty = 0;   ///< standard uncertainty (k = 1), same unit, finite, >= 0
+  double value = 0;               ///< finite always
+  std::string unit;               ///< UCUM: "mL", "cm2", "mm", "deg"
+  double uncertainty = 0;         ///< standard uncertainty (k = 1), same unit, finite, >= 0
   Status status = Status::kOk;
-  std::string reason;       ///< why it is flagged; empty when ok
+  std::string reason;  ///< why it is flagged; empty when ok
 };
 
 /// What one analysis says about its inputs. A refusal is an Error instead, never an empty report.

@@ -75,8 +75,7 @@ bool Inside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& 
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
     const auto& a = polygon[i];
     const auto& b = polygon[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
       inside = !inside;
     }
   }
@@ -88,8 +87,7 @@ Result<Outline> OutlineFromJson(std::string_view text) {
     const json root = json::parse(text);
     Outline outline;
     std::string problem;
-    outline.polygon_px =
-        root.contains("shapes") ? ReadLabelMe(root, problem) : ReadPoints(root.at("polygon_px"), 0);
+    outline.polygon_px = root.contains("shapes") ? ReadLabelMe(root, problem) : ReadPoints(root.at("polygon_px"), 0);
     if (problem.empty()) problem = Problem(outline.polygon_px);
     if (!problem.empty()) return Fail(ErrorCode::kBadFile, problem);
     if (root.contains("image_sha256") && !root.at("image_sha256").is_null()) {

@@ -74,7 +74,8 @@ Status ReadVertices(PlyReader& reader, const PlyElement& element, Surface& surfa
     if (!reader.ReadScalars(element, values)) return Fail(ErrorCode::kBadFile, "the PLY ends within its vertices");
     const auto value = [&](int wanted) { return values[static_cast<std::size_t>(columns.at[wanted])]; };
     const Eigen::Vector3d point(value(0), value(1), value(2));
-    if (!point.allFinite()) return Fail(ErrorCode::kBadFile, "vertex " + std::to_string(i) + " of the PLY is not finite");
+    if (!point.allFinite())
+      return Fail(ErrorCode::kBadFile, "vertex " + std::to_string(i) + " of the PLY is not finite");
     surface.point_in_camera.push_back(point.cast<float>());
     surface.colour.push_back(coloured ? Rgb8{ChannelOf(value(3)), ChannelOf(value(4)), ChannelOf(value(5))}
                                       : Rgb8{200, 200, 200});

@@ -14,12 +14,12 @@ namespace striae {
 
 struct Surface {
   int sensor_width_px = 0, sensor_height_px = 0;
-  std::vector<Eigen::Vector3f> point_in_camera;  ///< mm; row-major order of (row, col)
-  std::vector<Rgb8> colour;                      ///< one per point
-  std::vector<float> quality;                    ///< modulation 0..1, one per point
-  std::vector<std::uint16_t> col, row;           ///< sensor pixel, one per point
+  std::vector<Eigen::Vector3f> point_in_camera;     ///< mm; row-major order of (row, col)
+  std::vector<Rgb8> colour;                         ///< one per point
+  std::vector<float> quality;                       ///< modulation 0..1, one per point
+  std::vector<std::uint16_t> col, row;              ///< sensor pixel, one per point
   std::vector<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the camera (normals towards it)
-  std::vector<std::string> comments;             ///< provenance lines, printable ASCII
+  std::vector<std::string> comments;                ///< provenance lines, printable ASCII
 
   [[nodiscard]] std::size_t size() const { return point_in_camera.size(); }
   [[nodiscard]] bool HasGrid() const { return col.size() == size() && row.size() == size() && sensor_width_px > 0; }

@@ -28,9 +28,7 @@ year_month_day Civil(const Date& date) {
   return {year(date.year), month(static_cast<unsigned>(date.month)), day(static_cast<unsigned>(date.day))};
 }
 
-std::int64_t DaysOf(const Date& date) {
-  return sys_days(Civil(date)).time_since_epoch().count();
-}
+std::int64_t DaysOf(const Date& date) { return sys_days(Civil(date)).time_since_epoch().count(); }
 
 std::int64_t FloorDays(std::int64_t unix_ms) { return (unix_ms >= 0 ? unix_ms : unix_ms - kDayMs + 1) / kDayMs; }
 
@@ -70,8 +68,8 @@ std::string UtcTime::ToString() const {
 
 Result<UtcTime> UtcTime::Parse(std::string_view text) {
   const auto bad = [&] {
-    return Fail(ErrorCode::kUsage, "'" + std::string(text.substr(0, 40)) +
-                                       "' is not a UTC time; write it as 2026-05-04T07:08:09Z");
+    return Fail(ErrorCode::kUsage,
+                "'" + std::string(text.substr(0, 40)) + "' is not a UTC time; write it as 2026-05-04T07:08:09Z");
   };
   if (text.size() < 20 || text[10] != 'T' || text.back() != 'Z' || text[13] != ':' || text[16] != ':') return bad();
   const auto date = Date::Parse(text.substr(0, 10));

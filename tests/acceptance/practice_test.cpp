@@ -43,8 +43,8 @@ Surface ReadSurface(const fs::path& path) {
 }
 
 Ran Reconstruct(const fs::path& image, const std::string& rig, const fs::path& out) {
-  return RunProgram(Program(), {"reconstruct", image.string(), "--calibration", TestData("practice/" + rig).string(), "--out",
-                         out.string(), "--json"});
+  return RunProgram(Program(), {"reconstruct", image.string(), "--calibration", TestData("practice/" + rig).string(),
+                                "--out", out.string(), "--json"});
 }
 
 /// Depth errors (mm) at the pixels whose truth is known. Untrimmed.
@@ -113,8 +113,8 @@ TEST(Practice, LimbsAndTheirWoundsAtOneMetre) {
     EXPECT_LT(std::abs(Mean(errors)), 0.25) << image;
 
     std::ofstream(folder / "outline.json") << json{{"polygon_px", truth.at("outline_px")}};
-    const Ran wound =
-        RunProgram(Program(), {"measure", "wound", ply.string(), "--outline", (folder / "outline.json").string(), "--json"});
+    const Ran wound = RunProgram(
+        Program(), {"measure", "wound", ply.string(), "--outline", (folder / "outline.json").string(), "--json"});
     ASSERT_EQ(wound.exit_code, 0) << image << wound.err;
     const double volume = ValueOf(wound.Json(), "volume"), true_volume = truth.at("volume_ml");
     volume_errors.push_back(100 * std::abs(volume / true_volume - 1));

@@ -1,5 +1,5 @@
-// Holds every #include against the house's table: app -> {acquire, reconstruct, analysis, store, dicom, report} -> core,
-// and no third-party type in a public header.
+// Holds every #include against the house's table: app -> {acquire, reconstruct, analysis, store, dicom, report} ->
+// core, and no third-party type in a public header.
 #include <filesystem>
 #include <fstream>
 #include <map>

@@ -15,8 +15,8 @@ AnalysisReport InventedReport() {
   report.provenance.inputs = {{"surface", Sha256{}}};
   report.provenance.parameters = {{"ring_mm", 12}};
   Measurement volume{"volume", {"SCT", "118565006", "Volume"}, {{"LN", "94083-3", "Wound volume"}}, 8.31, "mL", 0.12};
-  Measurement depth{"depth_max", {"SCT", "131197000", "Depth"}, {}, 9.2, "mm", 0.4, Measurement::Status::kFlagged,
-                    "steep wall"};
+  Measurement depth{"depth_max", {"SCT", "131197000", "Depth"}, {},          9.2, "mm",
+                    0.4,         Measurement::Status::kFlagged, "steep wall"};
   report.measurements = {volume, depth};
   report.details = {{"axes_source", "camera"}};
   return report;

@@ -54,10 +54,10 @@ TEST(Ply, HeaderIsTheContracts) {
 }
 
 TEST(Ply, ReadsAsciiWithOtherPropertiesAndPolygons) {
-  const auto surface = DecodePly(Bytes(
-      "ply\nformat ascii 1.0\nelement vertex 4\nproperty double nx\nproperty double x\nproperty double y\n"
-      "property double z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
-      "0 0 0 5\n0 1 0 5\n0 1 1 5\n0 0 1 5\n4 0 1 2 3\n"));
+  const auto surface = DecodePly(
+      Bytes("ply\nformat ascii 1.0\nelement vertex 4\nproperty double nx\nproperty double x\nproperty double y\n"
+            "property double z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+            "0 0 0 5\n0 1 0 5\n0 1 1 5\n0 0 1 5\n4 0 1 2 3\n"));
   ASSERT_TRUE(surface) << surface.error().message;
   EXPECT_EQ(surface->point_in_camera[2], Eigen::Vector3f(1, 1, 5));
   EXPECT_EQ(surface->faces.size(), 2U);

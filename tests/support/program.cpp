@@ -1,14 +1,14 @@
 #include "tests/support/program.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace striae::testing {
 namespace {
@@ -60,7 +60,7 @@ void Drain(Pipe& out, Pipe& err, Ran& ran) {
 }  // namespace
 
 Ran RunProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-        const std::filesystem::path& folder) {
+               const std::filesystem::path& folder) {
   Pipe out, err;
   const pid_t child = fork();
   if (child == 0) Become(program, arguments, folder, out, err);

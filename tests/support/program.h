@@ -18,7 +18,7 @@ struct Ran {
 
 /// Runs a program with its arguments (no shell), in `folder` when given.
 Ran RunProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-        const std::filesystem::path& folder = {});
+               const std::filesystem::path& folder = {});
 
 /// True if a program of that name is on the PATH.
 bool OnPath(const std::string& program);

@@ -14,8 +14,8 @@ bool HasTestData(const std::string& relative);
 
 }  // namespace striae::testing
 
-#define STRIAE_NEED_DATA(relative)                                                                        \
-  if (!::striae::testing::HasTestData(relative)) {                                                        \
+#define STRIAE_NEED_DATA(relative)                                                                       \
+  if (!::striae::testing::HasTestData(relative)) {                                                       \
     GTEST_SKIP() << "no " << ::striae::testing::TestData(relative).string() << "; set STRIAE_TEST_DATA"; \
-  }                                                                                                       \
+  }                                                                                                      \
   static_assert(true)
