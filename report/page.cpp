@@ -104,6 +104,7 @@ std::vector<std::string> Footer(const SubjectReport& subject, bool angles) {
   } else {
     lines.emplace_back("Wounds: smaller is better for every quantity in the table.");
   }
+  lines.emplace_back("Each depth map has a colour scale of its own, in mm from the camera.");
   return lines;
 }
 

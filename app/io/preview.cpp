@@ -164,7 +164,7 @@ Result<std::vector<std::uint8_t>> DepthPreview(const Surface& surface, std::opti
     return Fail(ErrorCode::kUsage, "the depth range is empty; give the nearer depth first");
   }
   // The bar is a fixed share of the picture, so that its letters stay readable when the picture is scaled down.
-  const double scale = max_side_px / 400.0;
+  const double scale = max_side_px / 320.0;
   const int bar_px = static_cast<int>(62 * scale + 0.5);
   const Cells cells = Average(surface, CutOf(surface), max_side_px - bar_px, max_side_px);
   const int map_width = cells.count.width();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "report/format.h"
 
@@ -25,8 +26,8 @@ struct Range {
 
 struct Frame {
   double left, right, top, bottom;
-  Range day, value;
-  [[nodiscard]] double X(double d) const { return left + (d - day.low) / (day.high - day.low) * (right - left); }
+  Range place, value;
+  [[nodiscard]] double X(double p) const { return left + (p - place.low) / (place.high - place.low) * (right - left); }
   [[nodiscard]] double Y(double v) const {
     return bottom - (v - value.low) / (value.high - value.low) * (bottom - top);
   }
@@ -60,26 +61,52 @@ Range ValueRange(const std::vector<PlotLine>& lines) {
   return {std::floor(range.low / step + 1e-9) * step, std::ceil(range.high / step - 1e-9) * step};
 }
 
-/// Day and visit names below it, over all lines.
-std::map<double, std::string> Days(const std::vector<PlotLine>& lines) {
-  std::map<double, std::string> days;
+struct Tick {
+  double day = 0;
+  std::string visits;
+};
+
+/// Where on the axis each visit stands: at its day. Visits that all fall on one day would hide each other and stand
+/// side by side, each labelled with that day.
+std::vector<PlotLine> WithPlaces(std::vector<PlotLine> lines) {
+  std::vector<std::string> visits;
+  std::set<double> days;
   for (const PlotLine& line : lines) {
     for (const PlotPoint& p : line.points) {
-      std::string& names = days[p.day];
-      if (names.find(p.visit) == std::string::npos) names += (names.empty() ? "" : ", ") + p.visit;
+      days.insert(p.day);
+      if (std::find(visits.begin(), visits.end(), p.visit) == visits.end()) visits.push_back(p.visit);
     }
   }
-  return days;
+  for (PlotLine& line : lines) {
+    for (PlotPoint& p : line.points) {
+      const auto index = std::find(visits.begin(), visits.end(), p.visit) - visits.begin();
+      p.place = days.size() > 1 ? p.day : static_cast<double>(index);
+    }
+  }
+  return lines;
 }
 
-Range DayRange(const std::map<double, std::string>& days) {
-  if (days.empty()) return {0, 1};
-  const double low = days.begin()->first, high = days.rbegin()->first;
+/// By place, over all lines.
+std::map<double, Tick> Ticks(const std::vector<PlotLine>& lines) {
+  std::map<double, Tick> ticks;
+  for (const PlotLine& line : lines) {
+    for (const PlotPoint& p : line.points) {
+      Tick& tick = ticks[p.place];
+      tick.day = p.day;
+      if (tick.visits.find(p.visit) == std::string::npos) tick.visits += (tick.visits.empty() ? "" : ", ") + p.visit;
+    }
+  }
+  return ticks;
+}
+
+Range PlaceRange(const std::map<double, Tick>& ticks) {
+  if (ticks.empty()) return {0, 1};
+  const double low = ticks.begin()->first, high = ticks.rbegin()->first;
   const double margin = high > low ? 0.06 * (high - low) : 1;
   return {low - margin, high + margin};
 }
 
-void DrawAxes(Drawing& drawing, const Frame& frame, const std::map<double, std::string>& days) {
+void DrawAxes(Drawing& drawing, const Frame& frame, const std::map<double, Tick>& ticks) {
   const double step = NiceStep(frame.value.high - frame.value.low, 4);
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   const int count = static_cast<int>(std::lround((frame.value.high - frame.value.low) / step));
@@ -91,12 +118,12 @@ void DrawAxes(Drawing& drawing, const Frame& frame, const std::map<double, std::
     drawing.Text({frame.left - 5, y + 2.5}, kSmall, FormatNumber(value, decimals), kGrey, Anchor::kEnd);
   }
   double free_from = -1e9;
-  for (const auto& [day, visits] : days) {
-    const double x = frame.X(day);
+  for (const auto& [place, tick] : ticks) {
+    const double x = frame.X(place);
     drawing.Line({{x, frame.bottom}, {x, frame.bottom + 3}}, 0.6, kZero);
     if (x < free_from) continue;
-    drawing.Text({x, frame.bottom + 12}, kSmall, "day " + FormatNumber(day, 0), kGrey, Anchor::kMiddle);
-    drawing.Text({x, frame.bottom + 21}, kSmall, visits, kInk, Anchor::kMiddle, true);
+    drawing.Text({x, frame.bottom + 12}, kSmall, "day " + FormatNumber(tick.day, 0), kGrey, Anchor::kMiddle);
+    drawing.Text({x, frame.bottom + 21}, kSmall, tick.visits, kInk, Anchor::kMiddle, true);
     free_from = x + 30;
   }
 }
@@ -127,7 +154,7 @@ void DrawBand(Drawing& drawing, const Frame& frame, const PlotLine& line, Rgb8 c
 void DrawLine(Drawing& drawing, const Frame& frame, const PlotLine& line, std::size_t style) {
   const Rgb8 colour = kColours[style % kColours.size()];
   std::vector<Point> path;
-  for (const PlotPoint& p : line.points) path.push_back({frame.X(p.day), frame.Y(p.value)});
+  for (const PlotPoint& p : line.points) path.push_back({frame.X(p.place), frame.Y(p.value)});
   if (path.size() > 1) drawing.Line(path, 1.2, colour);
   for (std::size_t i = 0; i < path.size(); ++i) {
     const PlotPoint& p = line.points[i];
@@ -172,21 +199,22 @@ std::string Describe(const std::string& title, const std::string& unit, const st
 
 }  // namespace
 
-Drawing DrawPlot(const std::string& title, const std::string& unit, const std::vector<PlotLine>& lines,
+Drawing DrawPlot(const std::string& title, const std::string& unit, const std::vector<PlotLine>& given,
                  std::size_t first_colour, double width_pt, double height_pt) {
+  const std::vector<PlotLine> lines = WithPlaces(given);
   Drawing drawing;
   drawing.width = width_pt;
   drawing.height = height_pt;
   drawing.description = Describe(title, unit, lines);
   const bool names = lines.size() > 1;
-  const auto days = Days(lines);
+  const auto ticks = Ticks(lines);
   const Frame frame{
-      kLeft, width_pt - (names ? 52 : kRight), kTop, height_pt - kBottom, DayRange(days), ValueRange(lines)};
+      kLeft, width_pt - (names ? 52 : kRight), kTop, height_pt - kBottom, PlaceRange(ticks), ValueRange(lines)};
   drawing.Text({0, 10}, 9, title + (unit.empty() ? "" : " / " + unit), kInk, Anchor::kStart, true);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     DrawBand(drawing, frame, lines[i], kColours[(first_colour + i) % kColours.size()]);
   }
-  DrawAxes(drawing, frame, days);
+  DrawAxes(drawing, frame, ticks);
   for (std::size_t i = 0; i < lines.size(); ++i) DrawLine(drawing, frame, lines[i], first_colour + i);
   if (names) DrawNames(drawing, frame, lines, first_colour);
   return drawing;

@@ -13,6 +13,7 @@ struct PlotPoint {
   double uncertainty = 0;  ///< standard uncertainty; the bar is 1.96 times as long to either side
   bool flagged = false;    ///< drawn hollow
   std::string visit;       ///< "V1"
+  double place = 0;        ///< on the axis; set by DrawPlot
 };
 
 struct PlotLine {

@@ -37,7 +37,8 @@ void FillChange(Cell& cell, const Reading& first, const Reading& now, Better bet
     const int decimals = DecimalsFor(comparison.change_uncertainty);
     cell.change = FormatSigned(*comparison.change, decimals);
     if (comparison.percent) cell.change += " (" + FormatPercent(*comparison.percent) + ")";
-    if (comparison.limit > 0) cell.limit = "limit " + FormatNumber(comparison.limit, DecimalsFor(comparison.limit));
+    if (comparison.limit > 0 && comparison.reason.empty())
+      cell.limit = "limit " + FormatNumber(comparison.limit, DecimalsFor(comparison.limit));
   }
   cell.has_verdict = true;
   cell.verdict = comparison.verdict;

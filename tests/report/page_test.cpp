@@ -1,6 +1,8 @@
 // What a report says, before any layout.
 #include "report/page.h"
 
+#include <set>
+
 #include <gmock/gmock.h>
 
 #include "tests/report/example_subject.h"
@@ -123,6 +125,17 @@ TEST(Page, SaysWhichVisitStandsInForAFirstWithoutValues) {
   EXPECT_EQ(CellOf(wound, "Area", 0).value, "no value");
   EXPECT_EQ(CellOf(wound, "Area", 2).change, "\u22123.50 (\u221233\u00a0%)");
   EXPECT_THAT(wound.notes, Contains(HasSubstr("No value at V1; changes are against V2")));
+}
+
+TEST(Page, PlotsVisitsOfOneDaySideBySide) {
+  SubjectReport subject = WoundSubject();
+  for (VisitEntry& visit : subject.visits) visit.date = {2026, 5, 4};
+  const Drawing plot = BuildPage(subject).sections.at(0).plots.at(0);
+  std::set<double> places;
+  for (const Shape& shape : plot.shapes) {
+    if (shape.kind == Shape::Kind::kText && shape.text == "day 0") places.insert(shape.points[0].x);
+  }
+  EXPECT_EQ(places.size(), 3U);
 }
 
 TEST(Page, WarnsOfWithdrawnConsent) {
