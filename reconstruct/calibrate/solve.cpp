@@ -104,7 +104,7 @@ class Solver {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.max_num_iterations = iterations;
-    options.num_threads = 2;
+    options.num_threads = 1;  // sums in one order: the same bytes on every machine
     options.logging_type = ceres::SILENT;
     options.function_tolerance = 1e-9;
     ceres::Solver::Summary summary;
@@ -389,7 +389,8 @@ Result<CalibrationFit> SolveCalibration(const ReferenceShape& shape, const std::
   fit.object_in_camera_mm = Eigen::Map<const Eigen::Vector3d>(p.pose + 3);
   fit.slide_direction = Eigen::Vector3d(p.slide[0], p.slide[1], 1).normalized();
   for (std::size_t v = 0; v < views.size(); ++v) {
-    fit.views.push_back({solved->distances[v], solver.ViewSpread(v), static_cast<int>(solver.SelectedIn(v))});
+    fit.views.push_back({static_cast<int>(std::lround(solver.offsets()[v])), solved->distances[v], solver.ViewSpread(v),
+                         static_cast<int>(solver.SelectedIn(v))});
   }
   fit.sd_stripes = solved->sd_fixed;
   fit.parameters = solver.Uncertainties();

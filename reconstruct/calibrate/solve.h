@@ -41,6 +41,7 @@ struct NominalRig {
 };
 
 struct ViewFit {
+  int whole_stripes = 0;              ///< added to the photograph's own order
   double offset_before_rounding = 0;  ///< whole stripes added, less its rounding and the common part: near zero
   double sd_stripes = 0;
   int samples = 0;
