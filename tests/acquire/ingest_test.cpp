@@ -4,17 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "acquire/preflight.h"
+#include "tests/support/ids.h"
 #include "tests/support/ptp_photo.h"
 
 namespace striae::acquire {
 namespace {
 
-template <typename T>
-T SomeId(std::uint8_t seed) {
-  Uuid uuid;
-  uuid.bytes.fill(seed);
-  return T(uuid);
-}
+using testing::SomeId;
 
 IngestItem Photograph(std::vector<std::uint8_t> bytes) {
   CaptureBinding binding;

@@ -1,7 +1,6 @@
 #include "acquire/metadata.h"
 
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 
@@ -9,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "acquire/preflight.h"
+#include "tests/support/files.h"
 #include "tests/support/ptp_photo.h"
 #include "tests/support/test_data.h"
 
@@ -16,11 +16,6 @@ namespace striae::acquire {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-Bytes Read(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /// "[Exif SubIFD - 0x8827] ISO Speed Ratings = 250" -> {"Exif SubIFD - 0x8827": "250"}, from another reader's dump.
 std::map<std::string, std::string> OtherReader(const std::filesystem::path& path) {
@@ -39,7 +34,7 @@ std::map<std::string, std::string> OtherReader(const std::filesystem::path& path
 
 TEST(Metadata, AgreesWithAnotherReaderOnARealD90Photograph) {
   STRIAE_NEED_DATA("nikon_d90");
-  const auto photo = ReadMetadata(Read(testing::TestData("nikon_d90/Nikon D90.jpg")));
+  const auto photo = ReadMetadata(testing::ReadBytes(testing::TestData("nikon_d90/Nikon D90.jpg")));
   ASSERT_TRUE(photo) << photo.error().Describe();
   auto other = OtherReader(testing::TestData("nikon_d90/Nikon D90.jpg.metadata-extractor.txt"));
   EXPECT_EQ(photo->make, other["Exif IFD0 - 0x010f"]);
@@ -71,7 +66,7 @@ TEST(Metadata, AgreesWithAnotherReaderOnARealD90Photograph) {
 
 TEST(Metadata, TheRealPhotographIsHonestlyUnsuitable) {
   STRIAE_NEED_DATA("nikon_d90");
-  const auto photo = ReadMetadata(Read(testing::TestData("nikon_d90/Nikon D90.jpg")));
+  const auto photo = ReadMetadata(testing::ReadBytes(testing::TestData("nikon_d90/Nikon D90.jpg")));
   ASSERT_TRUE(photo);
   std::map<std::string, PreflightItem::State> states;
   const auto items = Preflight(*photo, RigRange::kSmall);
@@ -91,7 +86,7 @@ TEST(Metadata, TheRealPhotographIsHonestlyUnsuitable) {
 
 TEST(Metadata, APracticePhotographSaysWhatItSays) {
   STRIAE_NEED_DATA("practice/wound_0/visit_0.jpg");
-  const auto photo = ReadMetadata(Read(testing::TestData("practice/wound_0/visit_0.jpg")));
+  const auto photo = ReadMetadata(testing::ReadBytes(testing::TestData("practice/wound_0/visit_0.jpg")));
   ASSERT_TRUE(photo);
   EXPECT_EQ(photo->model, "NIKON D90");
   EXPECT_DOUBLE_EQ(photo->exposure_s.value_or(0), 1.0 / 200);

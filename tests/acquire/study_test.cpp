@@ -1,11 +1,11 @@
 // `striae import` and `striae capture` as a coordinator runs them, on a study made for the test.
-#include <fstream>
-#include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "store/record.h"
+#include "tests/support/files.h"
+#include "tests/support/ids.h"
 #include "tests/support/program.h"
 #include "tests/support/ptp_photo.h"
 #include "tests/support/ptp_responder.h"
@@ -20,28 +20,14 @@ using ::testing::HasSubstr;
 using testing::PtpBytes;
 using testing::PtpFault;
 using testing::Ran;
-
-template <typename T>
-T SomeId(std::uint8_t seed) {
-  Uuid uuid;
-  uuid.bytes.fill(seed);
-  return T(uuid);
-}
+using testing::ReadBytes;
+using testing::SomeId;
+using testing::WriteBytes;
 
 PtpBytes Photo(int iso = 400) {
   testing::PhotoOptions options;
   options.iso = iso;  // makes different photographs
   return testing::MakeJpeg(options);
-}
-
-void Write(const fs::path& path, const PtpBytes& bytes) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
-}
-PtpBytes Read(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 /// A study with one consenting subject and an open session.
@@ -114,8 +100,8 @@ using ImportCommand = StudyCommands;
 using CaptureCommand = StudyCommands;
 
 TEST_F(ImportCommand, PhotographsEnterTheSessionWithTheirRole) {
-  Write(folder_ / "card/DCIM/100NCD90/DSC_0001.JPG", Photo(200));
-  Write(folder_ / "card/DCIM/100NCD90/DSC_0002.JPG", Photo(400));
+  WriteBytes(folder_ / "card/DCIM/100NCD90/DSC_0001.JPG", Photo(200));
+  WriteBytes(folder_ / "card/DCIM/100NCD90/DSC_0002.JPG", Photo(400));
   const Ran ran = Import({(folder_ / "card").string(), "--as", "wound:W1", "--site", "calf", "--laterality", "L"});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   ASSERT_TRUE(ran.Json().is_object()) << ran.out;
@@ -133,9 +119,9 @@ TEST_F(ImportCommand, BrokenFilesGoToQuarantineAndTheRestGoesIn) {
   PtpBytes truncated = Photo(200);
   truncated.resize(truncated.size() / 2);
   const std::string text = "not a photograph at all";
-  Write(folder_ / "in/a_truncated.JPG", truncated);
-  Write(folder_ / "in/b_text.JPG", PtpBytes(text.begin(), text.end()));
-  Write(folder_ / "in/c_good.JPG", Photo());
+  WriteBytes(folder_ / "in/a_truncated.JPG", truncated);
+  WriteBytes(folder_ / "in/b_text.JPG", PtpBytes(text.begin(), text.end()));
+  WriteBytes(folder_ / "in/c_good.JPG", Photo());
   const Ran ran = Import({(folder_ / "in").string()});
   EXPECT_EQ(ran.exit_code, 1);
   const auto json = ran.Json();
@@ -147,15 +133,15 @@ TEST_F(ImportCommand, BrokenFilesGoToQuarantineAndTheRestGoesIn) {
   EXPECT_EQ(json["files"][2]["status"], "added");
   EXPECT_EQ(Captures().size(), 1U);
   const fs::path kept = json["files"][0]["quarantine"].get<std::string>();
-  EXPECT_EQ(Read(kept), truncated);
-  const PtpBytes note = Read(kept.string() + ".why.json");
+  EXPECT_EQ(ReadBytes(kept), truncated);
+  const PtpBytes note = ReadBytes(kept.string() + ".why.json");
   EXPECT_THAT(std::string(note.begin(), note.end()), HasSubstr("truncated JPEG"));
-  EXPECT_EQ(Read(folder_ / "in/a_truncated.JPG"), truncated);  // the source is as it was
+  EXPECT_EQ(ReadBytes(folder_ / "in/a_truncated.JPG"), truncated);  // the source is as it was
   EXPECT_TRUE(fs::exists(folder_ / "in/b_text.JPG"));
 }
 
 TEST_F(ImportCommand, TheSamePhotographAgainAddsNothing) {
-  Write(folder_ / "DSC_0001.JPG", Photo());
+  WriteBytes(folder_ / "DSC_0001.JPG", Photo());
   ASSERT_EQ(Import({(folder_ / "DSC_0001.JPG").string()}).exit_code, 0);
   const Ran again = Import({(folder_ / "DSC_0001.JPG").string()});
   EXPECT_EQ(again.exit_code, 0) << again.err;
@@ -164,7 +150,7 @@ TEST_F(ImportCommand, TheSamePhotographAgainAddsNothing) {
 }
 
 TEST_F(ImportCommand, WhatCannotBeMeantChangesNothing) {
-  Write(folder_ / "DSC_0001.JPG", Photo());
+  WriteBytes(folder_ / "DSC_0001.JPG", Photo());
   const std::string photo = (folder_ / "DSC_0001.JPG").string();
   EXPECT_EQ(Import({photo, "--as", "elbow"}).exit_code, 2);
   EXPECT_EQ(Import({photo, "--laterality", "X"}).exit_code, 2);

@@ -8,6 +8,8 @@
 
 #include <sys/types.h>
 
+#include "tests/support/files.h"
+
 namespace striae::dicom::testing {
 
 struct ToolResult {
@@ -18,8 +20,8 @@ struct ToolResult {
 ToolResult RunTool(const std::vector<std::string>& command);
 bool HasTool(const std::string& name);
 
-void WriteBytes(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes);
-std::vector<std::uint8_t> ReadBytes(const std::filesystem::path& path);
+using striae::testing::ReadBytes;
+using striae::testing::WriteBytes;
 
 /// A storescp of DCMTK on a free port of this machine, stopped when it goes out of scope.
 class StoreScp {

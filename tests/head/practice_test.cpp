@@ -1,8 +1,6 @@
 // The practice set: another program's bodies, poses and rig. Its depth maps stand in for a reconstruction, so that this
 // part is judged alone.
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -11,16 +9,12 @@
 
 #include "analysis/head/measure.h"
 #include "core/calibration.h"
-#include "tests/head/depth_map.h"
+#include "tests/support/depth_map.h"
+#include "tests/support/files.h"
 #include "tests/support/test_data.h"
 
 namespace striae::head {
 namespace {
-
-std::string Text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 Eigen::Matrix3d Matrix(const nlohmann::json& rows) {
   Eigen::Matrix3d m;
@@ -32,9 +26,9 @@ Eigen::Matrix3d Matrix(const nlohmann::json& rows) {
 
 TEST(PracticeHeads, EveryPoseIsFoundThroughReconstructionNoise) {
   STRIAE_NEED_DATA("practice/head/truth.json");
-  const auto calibration = CalibrationFromJson(Text(testing::TestData("practice/true_large.json")));
+  const auto calibration = CalibrationFromJson(testing::ReadText(testing::TestData("practice/true_large.json")));
   ASSERT_TRUE(calibration);
-  const auto truth = nlohmann::json::parse(Text(testing::TestData("practice/head/truth.json")));
+  const auto truth = nlohmann::json::parse(testing::ReadText(testing::TestData("practice/head/truth.json")));
   const auto load = [&](int pose) {
     // 0.5 mm: what the Fourier stage leaves at 2 m on smooth skin.
     return testing::SurfaceFromDepthMap(
