@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include <fcntl.h>
-#include <sodium.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -71,12 +70,6 @@ Status WriteFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
 
 Status WriteText(const fs::path& path, std::string_view text) {
   return WriteFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
-
-Sha256 HashOf(std::span<const std::uint8_t> bytes) {
-  Sha256 digest;
-  crypto_hash_sha256(digest.bytes.data(), bytes.data(), bytes.size());
-  return digest;
 }
 
 }  // namespace striae::app

@@ -10,6 +10,7 @@
 
 #include "core/hex.h"
 #include "core/result.h"
+#include "store/objects.h"
 
 namespace striae::app {
 
@@ -21,7 +22,7 @@ Result<std::string> ReadText(const std::filesystem::path& path);
 Status WriteFile(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 Status WriteText(const std::filesystem::path& path, std::string_view text);
 
-/// SHA-256 of bytes (libsodium).
-Sha256 HashOf(std::span<const std::uint8_t> bytes);
+/// SHA-256 of bytes, the same that names an object of the record.
+using store::HashOf;
 
 }  // namespace striae::app
