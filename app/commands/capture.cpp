@@ -1,26 +1,21 @@
 // `striae capture`: photographs through the cable, tagged with subject and session before the shutter.
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "acquire/tether.h"
 #include "app/command.h"
 #include "app/intake.h"
-#include "app/study.h"
+#include "app/tagging.h"
 
 namespace striae::app {
 namespace {
 
 struct Options {
-  std::string session, role = "unassigned", body_site, laterality, range, port;
+  TagOptions tag;
+  std::string port;
   int shots = 1;
 };
-
-/// What was typed for an option cannot be meant: exit code 2.
-tl::unexpected<Error> Usage(const Error& error, const char* option) {
-  return Fail(ErrorCode::kUsage, std::string(option) + ": " + error.message);
-}
 
 std::string AnnounceSubject(store::Record& record, const acquire::CaptureBinding& binding) {
   const auto subject = record.SubjectById(binding.subject);
@@ -30,40 +25,24 @@ std::string AnnounceSubject(store::Record& record, const acquire::CaptureBinding
 }
 
 Status Capture(Context& context, const Options& options) {
-  const auto role = CaptureRole::Parse(options.role);
-  if (!role) return Usage(role.error(), "--as");
-  const auto laterality = ParseLaterality(options.laterality);
-  if (!laterality) return Usage(laterality.error(), "--laterality");
-  std::optional<RigRange> range;
-  if (!options.range.empty()) {
-    const auto parsed = ParseRigRange(options.range);
-    if (!parsed) return Usage(parsed.error(), "--range");
-    range = *parsed;
-  }
-  const auto session = ParseSessionId(options.session);
-  if (!session) return Fail(session.error());
-  auto record = OpenStudy(context);
-  if (!record) return Fail(record.error());
-  auto binding = BindTo(*record, *session);
-  if (!binding) return Fail(binding.error());
-  binding->role = *role;
-  binding->body_site = options.body_site;
-  binding->laterality = *laterality;
-  context.Note(AnnounceSubject(*record, *binding));
+  auto tagged = Tag(context, options.tag);
+  if (!tagged) return Fail(tagged.error());
+  auto& [record, binding, range] = *tagged;
+  context.Note(AnnounceSubject(record, binding));
 
   acquire::TetherOptions tether;
   tether.port = options.port;
-  acquire::TetherSource source(tether, *binding, options.shots);
+  acquire::TetherSource source(tether, binding, options.shots);
   std::vector<Intake> intakes;
   Status camera;
   while (true) {
     const auto item = source.Next();
     if (!item) camera = Fail(item.error());
     if (!item || !*item) break;
-    intakes.push_back(TakeIn(*record, **item, range, Refused::kQuarantine));
+    intakes.push_back(TakeIn(record, **item, range, Refused::kQuarantine));
     context.Note(Describe(intakes.back()));
   }
-  auto document = ToJson(*session, intakes);
+  auto document = ToJson(binding.session, intakes);
   if (!camera) {
     document["error"] = {{"code", std::string(ToString(camera.error().code))}, {"message", camera.error().message}};
   }
@@ -82,17 +61,8 @@ void AddCommand_capture(CLI::App& root, Context& context) {
                  "released. The camera's card keeps every photograph; nothing is ever deleted on it.",
                  "striae -C trial capture --session 3f0c2f6e-8f4f-4c1e-9d39-5d2f3f1f9a11 --as wound:W1 --n 3");
   auto options = std::make_shared<Options>();
-  command->add_option("--session", options->session, "The session's id (striae session list)")->required();
+  AddTagOptions(*command, options->tag);
   command->add_option("--n", options->shots, "How many photographs")->check(CLI::Range(1, 100))->capture_default_str();
-  command->add_option("--as", options->role, "What they show: wound:LABEL, neutral, pose or unassigned")
-      ->type_name("ROLE")
-      ->capture_default_str();
-  command->add_option("--site", options->body_site, "Part of the body, e.g. calf")->type_name("TEXT");
-  command->add_option("--laterality", options->laterality, "L, R, B (both) or U (unpaired)")->type_name("SIDE");
-  command
-      ->add_option("--range", options->range,
-                   "Judge the settings for this rig, small (1 m) or large (2 m); otherwise the device's own")
-      ->type_name("RANGE");
   command->add_option("--port", options->port, "usb:BUS,DEVICE or ptpip:HOST:PORT:PORT; otherwise the D90 on USB")
       ->type_name("PORT");
   OnRun(command, context, [options](Context& run) { return Capture(run, *options); });
