@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <CGAL/version.h>
+#include <CGAL/version_macros.h>
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <ceres/version.h>
