@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include <Eigen/Dense>
 #include <ceres/ceres.h>
 
 #include "reconstruct/calibrate/detail/order_residual.h"
@@ -16,8 +17,10 @@ namespace {
 using detail::OrderResidual;
 using detail::RigParameters;
 
-/// Phase noise assumed of one sample, stripes; the robust loss starts to yield beyond three of them.
-constexpr double kSigma_stripes = 0.01;
+/// Phase noise assumed of one sample, stripes, until the residuals tell it; the robust loss starts to yield beyond
+/// three of them. Caps' rims differ by a hundredth of a stripe, ten times the noise elsewhere, and always to the same
+/// side.
+constexpr double kSigma_stripes = 0.01, kFinestSigma_stripes = 0.0003;
 constexpr double kLoss = 3;
 constexpr double kOffsetTolerance = 0.15;  ///< an offset further than this from a whole number has not settled
 constexpr double kWorstFixedSdRatio = 1.5;
@@ -112,29 +115,62 @@ class Solver {
     return summary.IsSolutionUsable();
   }
 
-  /// Standard uncertainties of the parameters, scaled by the residuals' own spread; zeros where rank is missing.
+  /// From here on samples weigh by the noise that most of them show (1.4826 times the median residual).
+  void LearnSigma() {
+    std::vector<double> residuals;
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      for (const OrderSample* sample : selected_[v]) residuals.push_back(std::abs(Difference(*sample, v, offsets_[v])));
+    }
+    if (residuals.empty()) return;
+    const auto middle = residuals.begin() + static_cast<long>(residuals.size() / 2);
+    std::nth_element(residuals.begin(), middle, residuals.end());
+    sigma_stripes_ = std::clamp(1.4826 * *middle, kFinestSigma_stripes, kSigma_stripes);
+  }
+
+  /// Standard uncertainties of camera and projector from the normal matrix at the solution (robust weights and priors
+  /// included, pose and slide free); zeros where it cannot be inverted.
   std::vector<CalibrationFit::Parameter> Uncertainties() {
+    static const char* const kNames[] = {"fy",
+                                         "fx/fy",
+                                         "cx",
+                                         "cy",
+                                         "k1",
+                                         "k2",
+                                         "center_x",
+                                         "center_y",
+                                         "center_z",
+                                         "rotation_x",
+                                         "rotation_y",
+                                         "rotation_z",
+                                         "focal_stripes",
+                                         "center_order",
+                                         "k1_projector"};
+    constexpr int kCamera = 6, kRig = 15, kAllParameters = 23;
     ceres::Problem problem;
     Build(problem, Free::kAll, false);
-    ceres::Covariance::Options options;
-    options.algorithm_type = ceres::DENSE_SVD;
-    options.null_space_rank = -1;
-    ceres::Covariance covariance(options);
-    double* const blocks[2] = {parameters_.camera, parameters_.projector};
-    const int sizes[2] = {6, 9};
-    static const char* const kNames[2][9] = {{"fy", "fx/fy", "cx", "cy", "k1", "k2"},
-                                             {"center_x", "center_y", "center_z", "rotation_x", "rotation_y",
-                                              "rotation_z", "focal_stripes", "center_order", "k1_projector"}};
-    const double scale = Spread() / kSigma_stripes;
-    std::vector<CalibrationFit::Parameter> list;
-    const bool known = covariance.Compute({{blocks[0], blocks[0]}, {blocks[1], blocks[1]}}, &problem);
-    for (int b = 0; b < 2; ++b) {
-      std::vector<double> matrix(static_cast<std::size_t>(sizes[b] * sizes[b]), 0.0);
-      if (known) covariance.GetCovarianceBlock(blocks[b], blocks[b], matrix.data());
-      for (int i = 0; i < sizes[b]; ++i) {
-        const double variance = matrix[static_cast<std::size_t>(i * sizes[b] + i)];
-        list.push_back({kNames[b][i], blocks[b][i], scale * std::sqrt(std::max(0.0, variance))});
+    ceres::Problem::EvaluateOptions options;
+    options.parameter_blocks = {parameters_.camera, parameters_.projector, parameters_.pose, parameters_.slide};
+    ceres::CRSMatrix jacobian;
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kAllParameters, kAllParameters);
+    if (problem.Evaluate(options, nullptr, nullptr, nullptr, &jacobian)) {
+      for (std::size_t row = 0; row + 1 < jacobian.rows.size(); ++row) {
+        for (int i = jacobian.rows[row]; i < jacobian.rows[row + 1]; ++i) {
+          for (int k = jacobian.rows[row]; k < jacobian.rows[row + 1]; ++k) {
+            normal(jacobian.cols[i], jacobian.cols[k]) += jacobian.values[i] * jacobian.values[k];
+          }
+        }
       }
+    }
+    // Parameters differ by ten orders of magnitude: scaled to a unit diagonal before inverting.
+    const Eigen::VectorXd scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::FullPivLU<Eigen::MatrixXd> factored(scale.asDiagonal() * normal * scale.asDiagonal());
+    const Eigen::MatrixXd covariance =
+        factored.isInvertible() ? Eigen::MatrixXd(scale.asDiagonal() * factored.inverse() * scale.asDiagonal())
+                                : Eigen::MatrixXd::Zero(kAllParameters, kAllParameters);
+    std::vector<CalibrationFit::Parameter> list;
+    for (int i = 0; i < kRig; ++i) {
+      const double value = i < kCamera ? parameters_.camera[i] : parameters_.projector[i - kCamera];
+      list.push_back({kNames[i], value, std::sqrt(std::max(0.0, covariance(i, i)))});
     }
     return list;
   }
@@ -183,7 +219,7 @@ class Solver {
     for (std::size_t v = 0; v < views_.size(); ++v) {
       for (const OrderSample* sample : selected_[v]) {
         problem.AddResidualBlock(new ceres::AutoDiffCostFunction<OrderResidual, 1, 6, 9, 6, 2, 1>(new OrderResidual(
-                                     shape_, sample->pixel, sample->order, views_[v].position_mm, kSigma_stripes)),
+                                     shape_, sample->pixel, sample->order, views_[v].position_mm, sigma_stripes_)),
                                  new ceres::CauchyLoss(kLoss), parameters_.camera, parameters_.projector,
                                  parameters_.pose, parameters_.slide, &offsets_[v]);
       }
@@ -218,6 +254,7 @@ class Solver {
   RigParameters nominal_, parameters_;
   std::vector<double> offsets_;
   std::vector<std::vector<const OrderSample*>> selected_;
+  double sigma_stripes_ = kSigma_stripes;
 };
 
 tl::unexpected<Error> Refuse(const std::string& why) {
@@ -300,7 +337,7 @@ struct Solved {
 };
 
 Result<Solved> RunStages(Solver& solver) {
-  constexpr std::size_t kFew = 700, kMany = 2500;
+  constexpr std::size_t kFew = 700, kMany = 2500, kMost = 6000;
   const auto failed = [] {
     return Refuse("the fit did not converge; check the mesh's unit and axes and the steps' signs");
   };
@@ -317,9 +354,12 @@ Result<Solved> RunStages(Solver& solver) {
   solved.sd_free = solver.Spread();
   solved.distances = SettleOffsets(solver);
   if (!solver.Solve(Free::kAll, false, 60)) return failed();
-  solver.SelectSamples(kMany);
-  if (!solver.Solve(Free::kAll, false, 60)) return failed();
   solved.sd_fixed = solver.Spread();
+  solver.SelectSamples(kMost);
+  for (int round = 0; round < 2; ++round) {
+    solver.LearnSigma();
+    if (!solver.Solve(Free::kAll, false, 60)) return failed();
+  }
   return solved;
 }
 
@@ -392,7 +432,7 @@ Result<CalibrationFit> SolveCalibration(const ReferenceShape& shape, const std::
     fit.views.push_back({static_cast<int>(std::lround(solver.offsets()[v])), solved->distances[v], solver.ViewSpread(v),
                          static_cast<int>(solver.SelectedIn(v))});
   }
-  fit.sd_stripes = solved->sd_fixed;
+  fit.sd_stripes = solver.Spread();
   fit.parameters = solver.Uncertainties();
   return fit;
 }
