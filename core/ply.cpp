@@ -16,7 +16,6 @@ namespace {
 using detail::PlyElement;
 using detail::PlyHeader;
 using detail::PlyReader;
-using detail::PlyType;
 
 static_assert(std::endian::native == std::endian::little, "the codecs below copy little-endian values as they are");
 
