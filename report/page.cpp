@@ -71,8 +71,9 @@ std::vector<std::string> Missing(const SubjectReport& subject) {
     for (const CaptureEntry& entry : visit->captures) {
       const std::string why = WhyNoValue(entry);
       if (why.empty()) continue;
-      const std::string& file = entry.capture.file_name;
-      lines.push_back(where + " · " + entry.capture.role.ToString() + (file.empty() ? "" : " · " + file) + ": " + why);
+      std::string line = where + " · " + entry.capture.role.ToString();
+      if (!entry.capture.file_name.empty()) line.append(" · ").append(entry.capture.file_name);
+      lines.push_back(line.append(": ").append(why));
     }
   }
   return lines;

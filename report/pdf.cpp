@@ -72,7 +72,7 @@ Result<std::vector<std::uint8_t>> PdfReport(const SubjectReport& subject) {
   // Cairo takes seconds, not milliseconds.
   const std::string created = subject.generated_at.ToString().substr(0, 19) + "Z";
   int pages = 0;
-  const auto counted = Write(page, created, 1, pages);
+  auto counted = Write(page, created, 1, pages);
   if (!counted || pages == 1) return counted;
   int drawn = 0;
   return Write(page, created, pages, drawn);

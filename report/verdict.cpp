@@ -10,9 +10,8 @@ constexpr double kTwoSided95 = 1.96;
 bool ComparesSizes(Better better) { return better == Better::kSmallerSize || better == Better::kLargerSize; }
 
 std::string WhyNotAssessable(const Reading& first, const Reading& now, Better better) {
-  if (first.flagged && now.flagged) return "both flagged";
-  if (first.flagged) return "first flagged";
   if (now.flagged) return "flagged";
+  if (first.flagged) return "first flagged";
   if (first.method != now.method) return "different methods: " + first.method + ", " + now.method;
   if (!(first.uncertainty > 0) || !(now.uncertainty > 0)) return "uncertainty not known";
   if (better == Better::kNotDefined) return "no better direction defined";

@@ -165,7 +165,7 @@ Result<std::vector<std::uint8_t>> DepthPreview(const Surface& surface, std::opti
   }
   // The bar is a fixed share of the picture, so that its letters stay readable when the picture is scaled down.
   const double scale = max_side_px / 320.0;
-  const int bar_px = static_cast<int>(62 * scale + 0.5);
+  const int bar_px = static_cast<int>(std::lround(62 * scale));
   const Cells cells = Average(surface, CutOf(surface), max_side_px - bar_px, max_side_px);
   const int map_width = cells.count.width();
   const int height = std::max(cells.count.height(), static_cast<int>(110 * scale));

@@ -1,5 +1,8 @@
 #include "report/detail/cairo_paint.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #include "report/detail/codec.h"
@@ -119,8 +122,8 @@ SurfacePtr ToCairo(const ImageRgb& image) {
 namespace striae::report {
 
 ImageRgb Rasterise(const Drawing& drawing, double scale) {
-  const int width = std::max(1, static_cast<int>(drawing.width * scale + 0.5));
-  const int height = std::max(1, static_cast<int>(drawing.height * scale + 0.5));
+  const int width = std::max(1, static_cast<int>(std::lround(drawing.width * scale)));
+  const int height = std::max(1, static_cast<int>(std::lround(drawing.height * scale)));
   const detail::SurfacePtr surface = detail::ToCairo(ImageRgb(width, height, {255, 255, 255}));
   const detail::ContextPtr context(cairo_create(surface.get()));
   cairo_scale(context.get(), scale, scale);

@@ -57,15 +57,15 @@ tbody tr{padding:12px 0;border-bottom:1px solid var(--line)}th,td{border:0;paddi
 td::before{content:attr(data-visit);display:block;color:var(--grey);font-size:12px}
 tr.notes td:empty,tr.notes td.empty{display:none}
 }
-@page{size:A4;margin:10mm 11mm}
+@page{size:A4;margin:8mm 11mm}
 @media print{
-body{background:#fff;font-size:8.4pt;line-height:1.35;-webkit-print-color-adjust:exact;print-color-adjust:exact}
+body{background:#fff;font-size:8.4pt;line-height:1.28;-webkit-print-color-adjust:exact;print-color-adjust:exact}
 main{max-width:none;margin:0;padding:0;box-shadow:none;border-radius:0}
-h1{font-size:17pt}h2{font-size:11.5pt;margin:8pt 0 4pt;break-after:avoid}h3{font-size:8.6pt;margin:9pt 0 3pt}
+h1{font-size:16pt}h2{font-size:11.5pt;margin:8pt 0 4pt;break-after:avoid}h3{font-size:8.6pt;margin:9pt 0 3pt}
 .subtitle{font-size:9.5pt;margin:0 0 6pt}dl{padding:5pt 0;gap:2pt 20pt}dl div{font-size:7.6pt;grid-template-columns:56pt minmax(0,1fr);gap:6pt}
-.headline{padding:5pt 9pt}.headline .big{font-size:12.5pt}.headline .big small{font-size:8pt}.headline .name,.second,.words{font-size:7.2pt}
-table{font-size:7.9pt;margin-top:7pt}th,td{padding:1.7pt 6pt 1.7pt 0}tr{break-inside:avoid}thead th span,tr.notes td,.flag{font-size:7.2pt}
-.plots{margin-top:9pt;flex-wrap:nowrap;break-inside:avoid}.note,figcaption{font-size:7pt;margin-top:3pt}
+.headline{padding:4pt 9pt}.headline .big{font-size:12.5pt}.headline .big small{font-size:8pt}.headline .name,.second,.words{font-size:7.2pt}
+table{font-size:7.9pt;margin-top:7pt}th,td{padding:1.1pt 6pt 1.1pt 0}tr{break-inside:avoid}thead th span,tr.notes td,.flag{font-size:7.2pt}
+.plots{margin-top:6pt;flex-wrap:nowrap;break-inside:avoid}.note,figcaption{font-size:7pt;margin-top:3pt}
 .pictures{grid-template-columns:repeat(3,minmax(0,1fr));gap:8pt;margin-top:8pt}.card .pair{grid-template-columns:1fr 1fr;align-items:start}.card img{max-height:70pt}
 ul{font-size:7.6pt;padding-left:12pt}li{margin:1pt 0}footer{margin-top:9pt;padding-top:4pt;font-size:6.6pt}footer p{margin:0 0 2pt}
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "report/detail/plot.h"
 #include "report/format.h"
@@ -68,7 +69,12 @@ std::vector<std::string> FlagNotes(const SeriesColumn& column, Flags& flags) {
     if (value.reading.flagged) by_letter[flags.LetterFor(value.reason)] = value.reason;
   }
   std::vector<std::string> notes;
-  for (const auto& [letter, reason] : by_letter) notes.push_back("flag " + letter + ": " + reason);
+  notes.reserve(by_letter.size());
+  for (const auto& [letter, reason] : by_letter) {
+    std::string note = "flag ";
+    note.append(letter).append(": ").append(reason);
+    notes.push_back(std::move(note));
+  }
   return notes;
 }
 

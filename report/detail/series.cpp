@@ -136,7 +136,8 @@ const SeriesColumn* Series::Last(const std::string& name) const {
 std::vector<const VisitEntry*> InOrder(const SubjectReport& subject) {
   std::vector<const VisitEntry*> visits;
   for (const VisitEntry& visit : subject.visits) visits.push_back(&visit);
-  std::stable_sort(visits.begin(), visits.end(), [](const auto* a, const auto* b) { return a->date < b->date; });
+  std::stable_sort(visits.begin(), visits.end(),
+                   [](const auto* a, const auto* b) { return a->date.DaysSinceEpoch() < b->date.DaysSinceEpoch(); });
   return visits;
 }
 

@@ -66,7 +66,7 @@ TEST(Verdict, IsNotAssessableWithoutTwoSoundReadings) {
   };
   EXPECT_EQ(reason(flagged, Of(1, 0.1)), "first flagged");
   EXPECT_EQ(reason(Of(1, 0.1), flagged), "flagged");
-  EXPECT_EQ(reason(flagged, flagged), "both flagged");
+  EXPECT_EQ(reason(flagged, flagged), "flagged");
   EXPECT_EQ(reason(Of(1, 0.1), Of(4, 0)), "uncertainty not known");
   EXPECT_EQ(reason(other_method, Of(1, 0.1)), "different methods: wound 2, wound 1");
   EXPECT_EQ(reason(Of(1, 0.1, "mL"), Of(1, 0.1, "cm2")), "different units: mL, cm2");
