@@ -42,7 +42,7 @@ TEST(Program, EveryCommandExplainsItselfWithAnExample) {
     words.push_back("--help");
     const Ran ran = Striae(words);
     EXPECT_EQ(ran.exit_code, 0) << words.front();
-    EXPECT_THAT(ran.out, HasSubstr("Example:\n  striae")) << ran.out;
+    EXPECT_THAT(ran.out, ::testing::ContainsRegex("Example:\n  .*striae")) << ran.out;
     EXPECT_THAT(ran.out, HasSubstr("--json")) << ran.out;
   }
 }
