@@ -93,14 +93,20 @@ Photograph FromMat(const cv::Mat& mat) {
     return scale * (deep ? static_cast<float>(mat.ptr<std::uint16_t>(row)[index])
                          : static_cast<float>(mat.ptr<std::uint8_t>(row)[index]));
   };
+  // 65535 = 257 * 255: rounded to the nearest, never a tie.
+  const auto byte = [&](int row, int index) -> std::uint8_t {
+    return deep ? static_cast<std::uint8_t>((mat.ptr<std::uint16_t>(row)[index] + 128U) / 257U)
+                : mat.ptr<std::uint8_t>(row)[index];
+  };
   for (int row = 0; row < mat.rows; ++row) {
     for (int col = 0; col < mat.cols; ++col) {
       const int at = col * channels;
       const float b = value(row, at), g = channels > 1 ? value(row, at + 1) : b,
                   r = channels > 1 ? value(row, at + 2) : b;
       photograph.luminance(col, row) = channels > 1 ? Luminance(r, g, b) : b;
-      const auto byte = [](float v) { return static_cast<std::uint8_t>(v * 255 + 0.5F); };
-      photograph.colour(col, row) = {byte(r), byte(g), byte(b)};
+      const std::uint8_t blue = byte(row, at);
+      photograph.colour(col, row) =
+          channels > 1 ? Rgb8{byte(row, at + 2), byte(row, at + 1), blue} : Rgb8{blue, blue, blue};
     }
   }
   return photograph;
