@@ -233,7 +233,7 @@ Status Calibrate(Context& context, const Options& options) {
   bar.Clear();
   std::vector<Spread> spreads;
   for (const Shot& shot : work.shots) spreads.push_back(shot.spread);
-  const Status fair = reconstruct::JudgeSpread(work.all, spreads, (span.near_mm + span.far_mm) / 2);
+  Status fair = reconstruct::JudgeSpread(work.all, spreads, (span.near_mm + span.far_mm) / 2);
   if (!fair) return fair;
 
   Calibration& calibration = fit->calibration;
