@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 #include <Eigen/Geometry>
 
@@ -27,6 +28,21 @@ template <typename T>
 std::uint8_t* Put(std::uint8_t* out, const T& value) {
   std::memcpy(out, &value, sizeof value);
   return out + sizeof value;
+}
+
+/// Calls visit(index) for [0, count), the second half on a thread of its own when there are many.
+template <typename Visit>
+void ForEachInTwo(std::size_t count, const Visit& visit) {
+  constexpr std::size_t kFewest = 100'000;
+  const std::size_t middle = count < kFewest ? count : count / 2;
+  std::thread other;
+  if (middle < count) {
+    other = std::thread([&] {
+      for (std::size_t i = middle; i < count; ++i) visit(i);
+    });
+  }
+  for (std::size_t i = 0; i < middle; ++i) visit(i);
+  if (other.joinable()) other.join();
 }
 
 std::string HeaderOf(const Surface& surface) {
@@ -131,20 +147,22 @@ void SettleSensorSize(Surface& surface) {
 std::vector<std::uint8_t> EncodePly(const Surface& surface) {
   const std::string header = HeaderOf(surface);
   std::vector<std::uint8_t> bytes(header.size() + surface.size() * kVertexBytes + surface.faces.size() * kFaceBytes);
-  std::uint8_t* out = std::copy(header.begin(), header.end(), bytes.data());
+  std::uint8_t* const vertices = std::copy(header.begin(), header.end(), bytes.data());
   const bool gridded = surface.HasGrid();
-  for (std::size_t i = 0; i < surface.size(); ++i) {
+  ForEachInTwo(surface.size(), [&](std::size_t i) {
+    std::uint8_t* out = vertices + i * kVertexBytes;
     const Eigen::Vector3f& p = surface.point_in_camera[i];
     out = Put(Put(Put(out, p.x()), p.y()), p.z());
     out = Put(Put(Put(out, surface.colour[i].r), surface.colour[i].g), surface.colour[i].b);
     out = Put(out, surface.quality[i]);
     out = Put(out, gridded ? surface.col[i] : std::uint16_t{0});
-    out = Put(out, gridded ? surface.row[i] : std::uint16_t{0});
-  }
-  for (const auto& face : surface.faces) {
-    out = Put(out, std::uint8_t{3});
-    for (const std::uint32_t corner : face) out = Put(out, corner);
-  }
+    Put(out, gridded ? surface.row[i] : std::uint16_t{0});
+  });
+  std::uint8_t* const faces = vertices + surface.size() * kVertexBytes;
+  ForEachInTwo(surface.faces.size(), [&](std::size_t i) {
+    std::uint8_t* out = Put(faces + i * kFaceBytes, std::uint8_t{3});
+    for (const std::uint32_t corner : surface.faces[i]) out = Put(out, corner);
+  });
   return bytes;
 }
 

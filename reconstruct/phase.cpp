@@ -40,8 +40,13 @@ class Linearisation {
   std::array<float, kCells + 1> table_{};
 };
 
-ImageF LinearLight(const ImageF& encoded) {
+const Linearisation& Linear() {
   static const Linearisation linear;
+  return linear;
+}
+
+ImageF LinearLight(const ImageF& encoded) {
+  const Linearisation& linear = Linear();
   ImageF out(encoded.width(), encoded.height());
   ParallelLines(encoded.height(), [&](int row) {
     const float* in = encoded.Row(row);
@@ -57,10 +62,11 @@ struct Chosen {
   ImageF lines;  ///< across the stripes
 };
 
-Result<Chosen> ChooseDirection(ImageF light, std::optional<StripeDirection> wanted) {
+Result<Chosen> ChooseDirection(const ImageF& encoded, std::optional<StripeDirection> wanted) {
   const bool try_horizontal = wanted.value_or(StripeDirection::kHorizontal) == StripeDirection::kHorizontal;
   const bool try_vertical = wanted.value_or(StripeDirection::kVertical) == StripeDirection::kVertical;
-  ImageF transposed = try_horizontal ? Transposed(light) : ImageF();
+  ImageF transposed = try_horizontal ? detail::TransposedThrough(encoded, Linear()) : ImageF();
+  ImageF light = try_vertical ? LinearLight(encoded) : ImageF();
   const auto down = try_horizontal ? detail::FindCarrier(transposed) : std::nullopt;
   const auto along = try_vertical ? detail::FindCarrier(light) : std::nullopt;
   if (!down && !along) {
@@ -104,9 +110,6 @@ void DropShortRuns(Mask& lines, int least) {
 
 Mask MaskOf(const AnalyticSignal& signal, double period_px, const PhaseOptions& options) {
   const int near = static_cast<int>(std::lround(1.5 * period_px)), far = static_cast<int>(std::lround(3 * period_px));
-  const ImageF plateau = detail::LineMaximum(signal.amplitude, near, near);
-  const ImageF before = detail::LineMaximum(signal.amplitude, far, 0);
-  const ImageF after = detail::LineMaximum(signal.amplitude, 0, far);
   const int width = signal.amplitude.width(), height = signal.amplitude.height();
   Mask mask(width, height, 0);
   const auto share = static_cast<float>(options.least_plateau_share);
@@ -115,18 +118,33 @@ Mask MaskOf(const AnalyticSignal& signal, double period_px, const PhaseOptions& 
   const float modulation =
       std::max(static_cast<float>(options.least_modulation),
                static_cast<float>(options.least_modulation_share) * WellLitModulation(signal, least));
-  ParallelLines(height, [&](int line) {
-    const float *amplitude = signal.amplitude.Row(line), *background = signal.background.Row(line),
-                *top = plateau.Row(line), *left = before.Row(line), *right = after.Row(line);
-    std::uint8_t* m = mask.Row(line);
-    for (int x = 0; x < width; ++x) {
-      const bool between = std::min(left[x], right[x]) > share * top[x];
-      const float needed = (between ? share_between : share) * top[x];
-      m[x] = amplitude[x] > least && amplitude[x] > needed && amplitude[x] > modulation * background[x] ? 1 : 0;
+  detail::ParallelBlocks(height, [&](int, int begin, int end) {
+    detail::LineMaximum plateau(near, near), before(far, 0), after(0, far);
+    std::vector<float> top(static_cast<std::size_t>(width)), left(top), right(top);
+    for (int line = begin; line < end; ++line) {
+      const float *amplitude = signal.amplitude.Row(line), *background = signal.background.Row(line);
+      plateau(amplitude, width, top.data());
+      before(amplitude, width, left.data());
+      after(amplitude, width, right.data());
+      std::uint8_t* m = mask.Row(line);
+      for (int x = 0; x < width; ++x) {
+        const auto i = static_cast<std::size_t>(x);
+        const bool between = std::min(left[i], right[i]) > share * top[i];
+        const float needed = (between ? share_between : share) * top[i];
+        m[x] = amplitude[x] > least && amplitude[x] > needed && amplitude[x] > modulation * background[x] ? 1 : 0;
+      }
     }
   });
   DropShortRuns(mask, static_cast<int>(std::lround(options.least_run_periods * period_px)));
   return mask;
+}
+
+/// Turned back to the photograph's orientation; what it was made of is given up at once.
+template <typename T>
+Image<T> Turned(Image<T>& lines, bool horizontal) {
+  Image<T> given = std::move(lines);
+  lines = {};
+  return horizontal ? Transposed(given) : given;
 }
 
 double SaturatedShare(const Photograph& photograph) {
@@ -145,7 +163,7 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
     return Fail(ErrorCode::kBadImage, "the photograph is only " + std::to_string(width) + " x " +
                                           std::to_string(height) + " pixels; at least 32 x 32 are needed");
   }
-  auto chosen = ChooseDirection(LinearLight(photograph.luminance), options.direction);
+  auto chosen = ChooseDirection(photograph.luminance, options.direction);
   if (!chosen) return Fail(chosen.error());
   const bool horizontal = chosen->direction == StripeDirection::kHorizontal;
 
@@ -158,11 +176,10 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
   chosen->lines = {};
   result.noise = signal.noise;
   Mask mask = MaskOf(signal, result.carrier_period_px, options);
-  result.mask = horizontal ? Transposed(mask) : std::move(mask);
-  result.amplitude = horizontal ? Transposed(signal.amplitude) : std::move(signal.amplitude);
-  result.background = horizontal ? Transposed(signal.background) : std::move(signal.background);
-  const ImageF wrapped = horizontal ? Transposed(signal.phase) : std::move(signal.phase);
-  signal = {};
+  result.mask = Turned(mask, horizontal);
+  result.amplitude = Turned(signal.amplitude, horizontal);
+  result.background = Turned(signal.background, horizontal);
+  const ImageF wrapped = Turned(signal.phase, horizontal);
 
   detail::CutSteps(wrapped, result.mask, kStep_rad);
   detail::CleanMask(result.mask, options.least_region_px);
@@ -170,6 +187,7 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
     return Fail(ErrorCode::kNoCarrier,
                 "the stripes are too faint everywhere to carry phase; check flash, ISO and distance");
   }
+  result.unwrapped = Unwrap(wrapped, result.mask);
   result.modulation = ImageF(width, height);
   ParallelLines(height, [&](int row) {
     for (int x = 0; x < width; ++x) {
@@ -177,7 +195,6 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
       result.modulation(x, row) = std::clamp(result.amplitude(x, row) / background, 0.0F, 1.0F);
     }
   });
-  result.unwrapped = Unwrap(wrapped, result.mask);
   return result;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "reconstruct/detail/parallel.h"
 #include "reconstruct/detail/surface_builder.h"
@@ -39,29 +41,30 @@ Status CheckFit(const Photograph& photograph, const Calibration& calibration) {
                                                    "; use the full-size original, and the calibration of this camera");
 }
 
-/// Absolute order of every pixel; NaN outside the mask, in regions without an order, and beyond the grating's light.
-ImageF AbsoluteOrder(const PhaseResult& phase, const std::vector<RegionOrder>& regions,
-                     const Calibration& calibration) {
+/// Absolute order of every pixel, in the place of the unwrapped phase; NaN outside the mask, in regions without an
+/// order, and beyond the grating's light.
+ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions, const Calibration& calibration) {
   constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
   constexpr float kEnd = 0.4F;  // light ends at -0.25; up to here the filtered phase still follows it
   const float lowest = calibration.stripes ? -kEnd : -std::numeric_limits<float>::infinity();
   const float highest = calibration.stripes ? static_cast<float>(*calibration.stripes) - 1 + kEnd
                                             : std::numeric_limits<float>::infinity();
-  ImageF order(phase.mask.width(), phase.mask.height(), std::numeric_limits<float>::quiet_NaN());
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  ImageF order = std::move(phase.unwrapped.phase);
   detail::ParallelLines(order.height(), [&](int row) {
     for (int col = 0; col < order.width(); ++col) {
       const int region = phase.unwrapped.region(col, row);
-      if (region < 0 || regions[static_cast<std::size_t>(region)].source == OrderSource::kNone) continue;
-      const float n = phase.unwrapped.phase(col, row) / kTwoPi +
-                      static_cast<float>(regions[static_cast<std::size_t>(region)].offset);
-      if (n >= lowest && n <= highest) order(col, row) = n;
+      const bool known = region >= 0 && regions[static_cast<std::size_t>(region)].source != OrderSource::kNone;
+      const float offset = known ? static_cast<float>(regions[static_cast<std::size_t>(region)].offset) : kNone;
+      const float n = order(col, row) / kTwoPi + offset;
+      order(col, row) = n >= lowest && n <= highest ? n : kNone;
     }
   });
   return order;
 }
 
 /// The lit field: pixels whose local mean is well above the scene's dark and that the carrier reaches at all.
-double Coverage(const PhaseResult& phase, std::size_t points) {
+std::size_t LitField(const PhaseResult& phase) {
   constexpr float kLitModulation = 0.05F;
   std::vector<float> amplitudes;
   for (std::size_t i = 0; i < phase.mask.size(); i += 31) {
@@ -71,11 +74,14 @@ double Coverage(const PhaseResult& phase, std::size_t points) {
   const auto middle = amplitudes.begin() + static_cast<long>(amplitudes.size() / 2);
   std::nth_element(amplitudes.begin(), middle, amplitudes.end());
   const float lit = 0.1F * *middle;
-  std::size_t field = 0;
-  for (std::size_t i = 0; i < phase.mask.size(); ++i) {
-    field += phase.amplitude.pixels()[i] > lit && phase.modulation.pixels()[i] > kLitModulation ? 1 : 0;
-  }
-  return std::min(1.0, static_cast<double>(points) / static_cast<double>(std::max<std::size_t>(1, field)));
+  std::vector<std::size_t> in_row(static_cast<std::size_t>(phase.mask.height()), 0);
+  detail::ParallelLines(phase.mask.height(), [&](int row) {
+    const float *amplitude = phase.amplitude.Row(row), *modulation = phase.modulation.Row(row);
+    int count = 0;
+    for (int x = 0; x < phase.mask.width(); ++x) count += amplitude[x] > lit && modulation[x] > kLitModulation ? 1 : 0;
+    in_row[static_cast<std::size_t>(row)] = static_cast<std::size_t>(count);
+  });
+  return std::accumulate(in_row.begin(), in_row.end(), std::size_t{0});
 }
 
 void CollectWarnings(const PhaseResult& phase, Reconstruction& out) {
@@ -101,7 +107,7 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
   Stages stages(clock, out.seconds);
   PhaseOptions phase_options = options.phase;
   phase_options.direction = calibration.direction;
-  const auto phase = MeasurePhase(photograph, phase_options);
+  auto phase = MeasurePhase(photograph, phase_options);
   if (!phase) return Fail(phase.error());
   out.carrier_period_px = phase->carrier_period_px;
   out.direction = phase->direction;
@@ -109,16 +115,20 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
 
   const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
   out.regions = ResolveOrder(*phase, calibration, options.distance_mm.value_or(middle_mm));
-  const ImageF order = AbsoluteOrder(*phase, out.regions, calibration);
+  ImageF order = AbsoluteOrder(*phase, out.regions, calibration);
+  const std::size_t field = LitField(*phase);
+  phase->unwrapped = {};  // an image of this size is 50 MB: what is done with makes room
+  phase->amplitude = phase->background = {};
   stages.Done("order");
 
-  const double slack_mm = options.outside_working_share * middle_mm;
-  const detail::RayTable rays(calibration.camera, order.width(), order.height());
-  const ImageF depth =
-      detail::Triangulate(order, calibration, rays, calibration.near_mm - slack_mm, calibration.far_mm + slack_mm);
-  stages.Done("triangulation");
   const ImageRgb colour = detail::ColourWithoutStripes(photograph.colour, order, phase->direction);
   stages.Done("colour");
+
+  const double slack_mm = options.outside_working_share * middle_mm;
+  const detail::RayTable rays(calibration.camera, photograph.luminance.width(), photograph.luminance.height());
+  const ImageF depth = detail::Triangulate(std::move(order), calibration, rays, calibration.near_mm - slack_mm,
+                                           calibration.far_mm + slack_mm);
+  stages.Done("triangulation");
   out.surface = detail::BuildSurface(depth, colour, phase->modulation, calibration, rays, options.faces);
   stages.Done("mesh");
   if (out.surface.size() == 0) {
@@ -127,7 +137,8 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
                                                     std::to_string(std::lround(calibration.far_mm)) +
                                                     " mm; check the distance and that the calibration is this rig's");
   }
-  out.coverage = Coverage(*phase, out.surface.size());
+  out.coverage =
+      std::min(1.0, static_cast<double>(out.surface.size()) / static_cast<double>(std::max<std::size_t>(1, field)));
   CollectWarnings(*phase, out);
   return out;
 }

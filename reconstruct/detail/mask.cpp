@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "reconstruct/detail/parallel.h"
@@ -10,79 +12,123 @@
 namespace striae::reconstruct::detail {
 namespace {
 
-/// One step of a separable 3 x 3 erosion (and = true) or dilation.
+/// 3 x 3 erosion or dilation; the image's border repeats.
 Mask Morphed(const Mask& mask, bool erode) {
   const int width = mask.width(), height = mask.height();
-  Mask across(width, height), out(width, height);
+  Mask out(width, height);
   const auto combine = [erode](int a, int b, int c) {
     return static_cast<std::uint8_t>(erode ? (a & b & c) : (a | b | c));
   };
-  ParallelLines(height, [&](int row) {
-    const std::uint8_t* in = mask.Row(row);
-    std::uint8_t* to = across.Row(row);
-    for (int x = 0; x < width; ++x) to[x] = combine(in[std::max(0, x - 1)], in[x], in[std::min(width - 1, x + 1)]);
-  });
-  ParallelLines(height, [&](int row) {
-    const std::uint8_t *up = across.Row(std::max(0, row - 1)), *at = across.Row(row),
-                       *down = across.Row(std::min(height - 1, row + 1));
-    std::uint8_t* to = out.Row(row);
-    for (int x = 0; x < width; ++x) to[x] = combine(up[x], at[x], down[x]);
+  ParallelBlocks(height, [&](int, int begin, int end) {
+    std::vector<std::uint8_t> column(static_cast<std::size_t>(width) + 2);  // of three; one more at either end
+    for (int row = begin; row < end; ++row) {
+      const std::uint8_t *up = mask.Row(std::max(0, row - 1)), *at = mask.Row(row),
+                         *down = mask.Row(std::min(height - 1, row + 1));
+      for (int x = 0; x < width; ++x) column[static_cast<std::size_t>(x) + 1] = combine(up[x], at[x], down[x]);
+      column.front() = column[1];
+      column.back() = column[column.size() - 2];
+      std::uint8_t* to = out.Row(row);
+      const std::uint8_t* from = column.data();
+      for (int x = 0; x < width; ++x) to[x] = combine(from[x], from[x + 1], from[x + 2]);
+    }
   });
   return out;
 }
 
-/// Flood fill from a seed; returns the pixels reached and marks them with 2.
-void Collect(Mask& mask, int seed, std::vector<int>& pixels) {
-  const int width = mask.width(), count = static_cast<int>(mask.size());
-  auto& m = mask.pixels();
-  pixels.assign(1, seed);
-  m[static_cast<std::size_t>(seed)] = 2;
-  for (std::size_t next = 0; next < pixels.size(); ++next) {
-    const int at = pixels[next], col = at % width;
-    const int neighbours[4] = {col > 0 ? at - 1 : -1, col + 1 < width ? at + 1 : -1, at - width,
-                               at + width < count ? at + width : -1};
-    for (const int to : neighbours) {
-      if (to < 0 || m[static_cast<std::size_t>(to)] != 1) continue;
-      m[static_cast<std::size_t>(to)] = 2;
-      pixels.push_back(to);
+struct Run {
+  int first, last;  ///< pixels [first, last) of a row
+};
+
+std::vector<std::vector<Run>> RunsOf(const Mask& mask) {
+  std::vector<std::vector<Run>> runs(static_cast<std::size_t>(mask.height()));
+  ParallelLines(mask.height(), [&](int row) {
+    const std::uint8_t *begin = mask.Row(row), *end = begin + mask.width();
+    for (const std::uint8_t* at = begin; at != end;) {
+      at = std::find(at, end, std::uint8_t{1});
+      const std::uint8_t* stop = std::find(at, end, std::uint8_t{0});
+      if (at != stop)
+        runs[static_cast<std::size_t>(row)].push_back({static_cast<int>(at - begin), static_cast<int>(stop - begin)});
+      at = stop;
+    }
+  });
+  return runs;
+}
+
+/// Pixels of connected runs: union-find whose roots hold minus their number of pixels.
+class RunGroups {
+ public:
+  std::size_t Add(int pixels) {
+    parent_.push_back(-pixels);
+    return parent_.size() - 1;
+  }
+  void Unite(std::size_t a, std::size_t b) {
+    a = Root(a);
+    b = Root(b);
+    if (a == b) return;
+    if (parent_[b] < parent_[a]) std::swap(a, b);
+    parent_[a] += parent_[b];
+    parent_[b] = static_cast<int>(a);
+  }
+  [[nodiscard]] int Pixels(std::size_t run) { return -parent_[Root(run)]; }
+
+ private:
+  std::size_t Root(std::size_t run) {
+    while (parent_[run] >= 0) {
+      const auto up = static_cast<std::size_t>(parent_[run]);
+      if (parent_[up] >= 0) parent_[run] = parent_[up];
+      run = up;
+    }
+    return run;
+  }
+  std::vector<int> parent_;
+};
+
+void DropSpecks(Mask& mask, int least_px) {
+  const auto runs = RunsOf(mask);
+  RunGroups groups;
+  std::size_t above = 0;  // number of the first run of the row above
+  for (std::size_t row = 0; row < runs.size(); ++row) {
+    std::size_t here = 0;
+    for (std::size_t i = 0; i < runs[row].size(); ++i) {
+      const std::size_t added = groups.Add(runs[row][i].last - runs[row][i].first);
+      if (i == 0) here = added;
+    }
+    if (row > 0 && !runs[row].empty()) {
+      const auto &up = runs[row - 1], &at = runs[row];
+      for (std::size_t a = 0, b = 0; a < up.size() && b < at.size();) {
+        if (std::max(up[a].first, at[b].first) < std::min(up[a].last, at[b].last)) groups.Unite(above + a, here + b);
+        up[a].last < at[b].last ? ++a : ++b;
+      }
+    }
+    above = here;
+  }
+  std::size_t run = 0;
+  for (std::size_t row = 0; row < runs.size(); ++row) {
+    std::uint8_t* m = mask.Row(static_cast<int>(row));
+    for (const auto& [first, last] : runs[row]) {
+      if (groups.Pixels(run++) < least_px) std::fill(m + first, m + last, std::uint8_t{0});
     }
   }
 }
 
 }  // namespace
 
-ImageF LineMaximum(const ImageF& lines, int before, int after) {
-  const int width = lines.width();
-  ImageF out(width, lines.height());
-  ParallelLines(lines.height(), [&](int line) {
-    const float* in = lines.Row(line);
-    float* to = out.Row(line);
-    std::vector<int> falling;  // indices of candidates, their values falling
-    std::size_t head = 0;
-    for (int x = 0; x < width + after; ++x) {
-      if (x < width) {
-        while (falling.size() > head && in[falling.back()] <= in[x]) falling.pop_back();
-        falling.push_back(x);
-      }
-      const int center = x - after;
-      if (center < 0) continue;
-      while (falling[head] < center - before) ++head;
-      to[center] = in[falling[head]];
-    }
-  });
-  return out;
+void LineMaximum::operator()(const float* in, int width, float* out) {
+  const auto count = static_cast<std::size_t>(width), length = static_cast<std::size_t>(length_);
+  const std::size_t padded = (count + 2 * length - 2) / length * length;
+  falling_.assign(padded, std::numeric_limits<float>::lowest());
+  std::copy(in, in + count, falling_.begin() + before_);
+  rising_ = falling_;
+  for (std::size_t block = 0; block < padded; block += length) {
+    for (std::size_t i = block + 1; i < block + length; ++i) rising_[i] = std::max(rising_[i], rising_[i - 1]);
+    for (std::size_t i = block + length - 1; i-- > block;) falling_[i] = std::max(falling_[i], falling_[i + 1]);
+  }
+  for (std::size_t x = 0; x < count; ++x) out[x] = std::max(falling_[x], rising_[x + length - 1]);
 }
 
 void CleanMask(Mask& mask, int least_px) {
   mask = Morphed(Morphed(mask, true), false);
-  std::vector<int> pixels;
-  for (int i = 0; i < static_cast<int>(mask.size()); ++i) {
-    if (mask.pixels()[static_cast<std::size_t>(i)] != 1) continue;
-    Collect(mask, i, pixels);
-    if (static_cast<int>(pixels.size()) >= least_px) continue;
-    for (const int pixel : pixels) mask.pixels()[static_cast<std::size_t>(pixel)] = 0;
-  }
-  for (std::uint8_t& m : mask.pixels()) m = m != 0 ? 1 : 0;
+  DropSpecks(mask, least_px);
 }
 
 void CutSteps(const ImageF& wrapped, Mask& mask, float largest) {

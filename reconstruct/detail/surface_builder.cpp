@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "core/optics.h"
 #include "reconstruct/detail/parallel.h"
-#include "reconstruct/detail/transpose.h"
 
 namespace striae::reconstruct::detail {
 namespace {
@@ -50,8 +50,7 @@ std::vector<Crest> CrestsOf(const Rgb8* colour, const float* order, int length) 
   return crests;
 }
 
-void FillLine(const Rgb8* colour, const float* order, int length, Rgb8* out) {
-  std::copy(colour, colour + length, out);
+void FillLine(const float* order, int length, Rgb8* colour) {
   const std::vector<Crest> crests = CrestsOf(colour, order, length);
   if (crests.empty()) return;
   const auto center = [](const Crest& c) { return 0.5F * static_cast<float>(c.first + c.last); };
@@ -65,7 +64,7 @@ void FillLine(const Rgb8* colour, const float* order, int length, Rgb8* out) {
     const float span = center(after) - center(before);
     const float t = span > 0 ? std::clamp((at - center(before)) / span, 0.0F, 1.0F) : 0.0F;
     const auto blend = [t](float a, float b) { return static_cast<std::uint8_t>(a + t * (b - a) + 0.5F); };
-    out[x] = {blend(before.r, after.r), blend(before.g, after.g), blend(before.b, after.b)};
+    colour[x] = {blend(before.r, after.r), blend(before.g, after.g), blend(before.b, after.b)};
   }
 }
 
@@ -81,9 +80,10 @@ std::vector<std::uint32_t> RowStarts(const ImageF& depth) {
   return starts;
 }
 
-/// Triangles between two neighbouring rows.
+/// Triangles between two neighbouring rows: add(corner, corner, corner).
+template <typename Add>
 void MeshRows(const ImageF& depth, int row, std::uint32_t start, std::uint32_t start_below, double pitch_per_mm,
-              std::vector<std::array<std::uint32_t, 3>>& faces) {
+              const Add& add) {
   const float *a = depth.Row(row), *b = depth.Row(row + 1);
   const auto joined = [&](float p, float q) {
     return std::abs(p - q) < kSteepest * pitch_per_mm * std::min(p, q) + kNoiseStep_mm;  // false for NaN
@@ -97,11 +97,11 @@ void MeshRows(const ImageF& depth, int row, std::uint32_t start, std::uint32_t s
     const bool top = joined(z00, z10), left = joined(z00, z01), right = joined(z10, z11), bottom = joined(z01, z11);
     // Counter-clockwise seen from the camera, whose y points down.
     if (diagonal && ((top && left) || (right && bottom))) {
-      if (top && left) faces.push_back({p00, p01, p10});
-      if (right && bottom) faces.push_back({p10, p01, p11});
+      if (top && left) add(p00, p01, p10);
+      if (right && bottom) add(p10, p01, p11);
     } else if (other) {
-      if (left && bottom) faces.push_back({p00, p01, p11});
-      if (top && right) faces.push_back({p00, p11, p10});
+      if (left && bottom) add(p00, p01, p11);
+      if (top && right) add(p00, p11, p10);
     }
     i = p10;
     j = p11;
@@ -110,32 +110,47 @@ void MeshRows(const ImageF& depth, int row, std::uint32_t start, std::uint32_t s
 
 }  // namespace
 
-ImageF Triangulate(const ImageF& order, const Calibration& calibration, const RayTable& table, double near_mm,
-                   double far_mm) {
+ImageF Triangulate(ImageF order, const Calibration& calibration, const RayTable& table, double near_mm, double far_mm) {
   const StripeOptics optics(calibration);
-  ImageF depth(order.width(), order.height(), kNone);
   ParallelBlocks(order.height(), [&](int, int first, int last) {
     std::vector<Eigen::Vector2d> rays;
     for (int row = first; row < last; ++row) {
       table.Row(row, rays);
-      for (int col = 0; col < order.width(); ++col) {
-        if (std::isnan(order(col, row))) continue;
-        const auto z = optics.DepthAt(rays[static_cast<std::size_t>(col)].homogeneous(), order(col, row));
-        if (z && *z >= near_mm && *z <= far_mm) depth(col, row) = static_cast<float>(*z);
+      float* pixel = order.Row(row);
+      for (const Eigen::Vector2d& ray : rays) {
+        float& at = *pixel++;
+        if (std::isnan(at)) continue;
+        const auto z = optics.DepthAt(ray.homogeneous(), at);
+        at = z && *z >= near_mm && *z <= far_mm ? static_cast<float>(*z) : kNone;
       }
     }
   });
-  return depth;
+  return order;
 }
 
 ImageRgb ColourWithoutStripes(const ImageRgb& photograph, const ImageF& order, StripeDirection direction) {
-  const bool horizontal = direction == StripeDirection::kHorizontal;
-  const ImageRgb colour_lines = horizontal ? Transposed(photograph) : photograph;
-  const ImageF order_lines = horizontal ? Transposed(order) : order;
-  ImageRgb out(colour_lines.width(), colour_lines.height());
-  ParallelLines(out.height(),
-                [&](int line) { FillLine(colour_lines.Row(line), order_lines.Row(line), out.width(), out.Row(line)); });
-  return horizontal ? Transposed(out) : out;
+  ImageRgb out = photograph;
+  const int height = out.height();
+  if (direction == StripeDirection::kVertical) {
+    ParallelLines(height, [&](int row) { FillLine(order.Row(row), out.width(), out.Row(row)); });
+    return out;
+  }
+  // A few columns at a time are turned into lines and back.
+  ParallelBlocks(out.width(), [&](int, int first, int last) {
+    ImageRgb colours(height, last - first);
+    ImageF orders(height, last - first);
+    for (int row = 0; row < height; ++row) {
+      for (int col = first; col < last; ++col) {
+        colours(row, col - first) = out(col, row);
+        orders(row, col - first) = order(col, row);
+      }
+    }
+    for (int line = 0; line < last - first; ++line) FillLine(orders.Row(line), height, colours.Row(line));
+    for (int row = 0; row < height; ++row) {
+      for (int col = first; col < last; ++col) out(col, row) = colours(row, col - first);
+    }
+  });
+  return out;
 }
 
 Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& modulation,
@@ -150,7 +165,11 @@ Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& 
   surface.quality.resize(count);
   surface.col.resize(count);
   surface.row.resize(count);
-  std::vector<std::vector<std::array<std::uint32_t, 3>>> row_faces(static_cast<std::size_t>(depth.height()));
+  std::vector<std::size_t> face_starts(static_cast<std::size_t>(depth.height()) + 1, 0);
+  const auto mesh_row = [&](int row, const auto& add) {
+    MeshRows(depth, row, starts[static_cast<std::size_t>(row)], starts[static_cast<std::size_t>(row) + 1],
+             1 / std::min(calibration.camera.fx, calibration.camera.fy), add);
+  };
   const auto fill_row = [&](int row, std::vector<Eigen::Vector2d>& rays) {
     table.Row(row, rays);
     std::size_t at = starts[static_cast<std::size_t>(row)];
@@ -165,15 +184,21 @@ Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& 
       ++at;
     }
     if (faces && row + 1 < depth.height()) {
-      MeshRows(depth, row, starts[static_cast<std::size_t>(row)], starts[static_cast<std::size_t>(row) + 1],
-               1 / std::min(calibration.camera.fx, calibration.camera.fy), row_faces[static_cast<std::size_t>(row)]);
+      std::size_t& number = face_starts[static_cast<std::size_t>(row) + 1];
+      mesh_row(row, [&](std::uint32_t, std::uint32_t, std::uint32_t) { ++number; });
     }
   };
   ParallelBlocks(depth.height(), [&](int, int first, int last) {
     std::vector<Eigen::Vector2d> rays;
     for (int row = first; row < last; ++row) fill_row(row, rays);
   });
-  for (const auto& list : row_faces) surface.faces.insert(surface.faces.end(), list.begin(), list.end());
+  // Counted before they are written: collected row by row they would be in memory twice.
+  std::partial_sum(face_starts.begin(), face_starts.end(), face_starts.begin());
+  surface.faces.resize(face_starts.back());
+  ParallelLines(faces ? depth.height() - 1 : 0, [&](int row) {
+    auto* next = surface.faces.data() + face_starts[static_cast<std::size_t>(row)];
+    mesh_row(row, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { *next++ = {a, b, c}; });
+  });
   return surface;
 }
 

@@ -10,8 +10,7 @@ namespace striae::reconstruct::detail {
 
 /// Depth z (mm) of every pixel whose absolute order is not NaN; NaN where the ray and the light do not meet between
 /// `near_mm` and `far_mm`.
-ImageF Triangulate(const ImageF& order, const Calibration& calibration, const RayTable& table, double near_mm,
-                   double far_mm);
+ImageF Triangulate(ImageF order, const Calibration& calibration, const RayTable& table, double near_mm, double far_mm);
 
 /// Colour without stripes: along every line across the stripes, the colours around the bright centres (whole orders)
 /// are interpolated across the dark between them. Where a line has no bright centre nearby, the photograph's own colour
