@@ -99,29 +99,21 @@ reconstruct::NominalRig Nominal(const Options& options, const std::vector<recons
   return nominal;
 }
 
-/// What the first photograph says of the camera, and whether another one is of the same.
-Status Adopt(const Opened& opened, StripeDirection direction, bool first, const Options& options,
-             reconstruct::NominalRig& nominal) {
+/// The first photograph says what the camera is; the others must be of its size.
+Status AdoptCamera(const Opened& opened, bool first, const Options& options, reconstruct::NominalRig& nominal) {
   const int width = opened.photograph.luminance.width(), height = opened.photograph.luminance.height();
   if (first) {
     nominal.image_width_px = width;
     nominal.image_height_px = height;
     nominal.pixel_pitch_mm = options.sensor_width_mm / std::max(width, height);
-    nominal.direction = direction;
     nominal.camera_focal_mm = opened.focal_length_mm.value_or(nominal.camera_focal_mm);
     return {};
   }
-  if (width != nominal.image_width_px || height != nominal.image_height_px) {
-    return Fail(
-        ErrorCode::kBadCalibration,
-        fmt::format("the photograph has {} x {} pixels, the first one {} x {}; all must come from one camera at "
-                    "full size",
-                    width, height, nominal.image_width_px, nominal.image_height_px));
-  }
-  if (direction != nominal.direction) {
-    return Fail(ErrorCode::kBadCalibration, "the stripes run across those of the first photograph");
-  }
-  return {};
+  if (width == nominal.image_width_px && height == nominal.image_height_px) return {};
+  return Fail(ErrorCode::kBadCalibration,
+              fmt::format("the photograph has {} x {} pixels, the first one {} x {}; all must come from one camera at "
+                          "full size",
+                          width, height, nominal.image_width_px, nominal.image_height_px));
 }
 
 Status MeasureAll(const std::vector<reconstruct::CalibrationStep>& steps, const Options& options, ProgressBar& bar,
@@ -134,11 +126,17 @@ Status MeasureAll(const std::vector<reconstruct::CalibrationStep>& steps, const 
     const auto opened = Open(shot.path);
     if (!opened) return Fail(opened.error());
     shot.sha256 = opened->sha256;
+    const bool first = work.shots.empty();
+    if (Status same = AdoptCamera(*opened, first, options, work.nominal); !same) {
+      return Fail(same.error(), shot.path.string());
+    }
     const auto phase = reconstruct::MeasurePhase(opened->photograph);
     if (!phase) return Fail(phase.error(), shot.path.string());
     shot.carrier_period_px = phase->carrier_period_px;
-    if (Status same = Adopt(*opened, phase->direction, work.shots.empty(), options, work.nominal); !same) {
-      return Fail(same.error(), shot.path.string());
+    if (first) work.nominal.direction = phase->direction;
+    if (phase->direction != work.nominal.direction) {
+      return Fail(ErrorCode::kBadCalibration,
+                  shot.path.string() + ": the stripes run across those of the first photograph");
     }
     work.views.push_back(reconstruct::ViewFromPhase(*phase, step.position_mm));
     work.shots.push_back(std::move(shot));
@@ -221,6 +219,9 @@ Status Calibrate(Context& context, const Options& options) {
   if (!steps) return Fail(steps.error());
   Work work;
   work.nominal = Nominal(options, *steps);
+  std::vector<double> positions;
+  for (const auto& step : *steps) positions.push_back(step.position_mm);
+  if (Status slide = reconstruct::CheckSlide(positions, work.nominal.first_distance_mm); !slide) return slide;
   ProgressBar bar;
   if (Status measured = MeasureAll(*steps, options, bar, work); !measured) return measured;
   bar.Show(steps->size(), 2 * steps->size(), "solving");

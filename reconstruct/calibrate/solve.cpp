@@ -316,12 +316,9 @@ Calibration PackCalibration(const RigParameters& p, const NominalRig& nominal) {
 }
 
 Status CheckInput(const std::vector<CalibrationView>& views, const NominalRig& nominal) {
-  if (views.size() < 3) return Refuse("fewer than three; photograph the object at about nine positions of the slide");
-  const auto [nearest, farthest] = std::minmax_element(
-      views.begin(), views.end(), [](const auto& a, const auto& b) { return a.position_mm < b.position_mm; });
-  if (farthest->position_mm - nearest->position_mm < 0.05 * nominal.first_distance_mm) {
-    return Refuse("the slide moved less than 5 % of the distance; use the whole measuring range");
-  }
+  std::vector<double> positions;
+  for (const CalibrationView& view : views) positions.push_back(view.position_mm);
+  if (Status slide = CheckSlide(positions, nominal.first_distance_mm); !slide) return slide;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (views[v].samples.size() < kFewestSamples) {
       return Refuse("photograph " + std::to_string(v + 1) + " shows too few stripes on the object");
@@ -400,6 +397,18 @@ std::optional<double> CalibrationFit::ReferenceDepth(const ReferenceShape& shape
   const auto height = shape.At(p.x(), p.y());
   if (!height || (usable_only && !height->usable)) return std::nullopt;
   return depth;
+}
+
+Status CheckSlide(const std::vector<double>& positions_mm, double first_distance_mm) {
+  constexpr double kLeastTravelShare = 0.05;
+  if (positions_mm.size() < 3) {
+    return Refuse("fewer than three; photograph the object at about nine positions of the slide");
+  }
+  const auto [nearest, farthest] = std::minmax_element(positions_mm.begin(), positions_mm.end());
+  if (*farthest - *nearest < kLeastTravelShare * first_distance_mm) {
+    return Refuse("the slide moved less than 5 % of the distance; use the whole measuring range");
+  }
+  return {};
 }
 
 Result<CalibrationFit> SolveCalibration(const ReferenceShape& shape, const std::vector<CalibrationView>& views,

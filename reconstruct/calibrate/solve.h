@@ -69,6 +69,10 @@ struct CalibrationFit {
                                                      double position_mm, bool usable_only) const;
 };
 
+/// kBadCalibration when fewer than three positions, or a slide that moved less than 5 % of the distance, cannot
+/// determine a rig. SolveCalibration asks it too; ask it before measuring photographs.
+Status CheckSlide(const std::vector<double>& positions_mm, double first_distance_mm);
+
 /// kBadCalibration with the reason when the photographs cannot determine the parameters: fewer than three positions,
 /// offsets that do not settle near whole numbers, a fit that gets worse when they are fixed, parameters far from any
 /// rig.
