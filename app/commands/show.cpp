@@ -4,15 +4,22 @@
 namespace striae::app {
 namespace {
 
+/// What one line says of a single value; nothing for null and for an empty text.
+std::string Said(const nlohmann::json& value) {
+  if (value.is_null()) return {};
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
 /// JSON as indented lines for a person; `--json` has the document itself.
 void Append(const nlohmann::json& value, const std::string& indent, std::string& text) {
   for (const auto& [key, entry] : value.items()) {
-    const std::string name = indent + (value.is_array() ? "-" : key + ":");
+    std::string name = indent;
+    name += value.is_array() ? "-" : key + ":";
     if (entry.is_structured() && !entry.empty()) {
-      text += name + "\n";
+      text.append(name).append("\n");
       Append(entry, indent + "  ", text);
-    } else if (!entry.is_structured() && !entry.is_null() && entry != "") {
-      text += name + " " + (entry.is_string() ? entry.get<std::string>() : entry.dump()) + "\n";
+    } else if (const std::string said = entry.is_structured() ? "" : Said(entry); !said.empty()) {
+      text.append(name).append(" ").append(said).append("\n");
     }
   }
 }
