@@ -7,7 +7,7 @@
 namespace striae::reconstruct {
 
 Unwrapped Unwrap(const ImageF& wrapped, const Mask& mask) {
-  constexpr std::size_t kPixelsAnEdge = 8;  // beyond it, looking for cuts takes longer than sorting all edges
+  constexpr std::size_t kPixelsAnEdge = 10;  // beyond it, looking for cuts takes longer than sorting all edges
   if (wrapped.width() != mask.width() || wrapped.height() != mask.height()) {
     throw std::logic_error("Unwrap: phase and mask differ in size");
   }

@@ -59,7 +59,8 @@ void Faces::ScanRow(const ImageF& wrapped, const Mask& mask, int row, std::vecto
   }
 }
 
-Faces::Faces(const ImageF& wrapped, const Mask& mask) : width_(mask.width()), height_(mask.height()) {
+Faces::Faces(const ImageF& wrapped, const Mask& mask, std::size_t most_residues)
+    : width_(mask.width()), height_(mask.height()) {
   const auto rows = static_cast<std::size_t>(std::max(0, height_ - 1));
   std::vector<std::vector<Run>> runs(rows);
   std::vector<std::vector<Residue>> residues(rows);
@@ -67,6 +68,10 @@ Faces::Faces(const ImageF& wrapped, const Mask& mask) : width_(mask.width()), he
     const auto at = static_cast<std::size_t>(row);
     ScanRow(wrapped, mask, row, runs[at], residues[at]);
   });
+  std::size_t count = 0;
+  for (const auto& row : residues) count += row.size();
+  overcharged_ = count > most_residues;
+  if (overcharged_) return;
   JoinRuns(runs, mask);
   for (std::size_t row = 0; row < rows; ++row) {
     for (const Residue& residue : residues[row]) {

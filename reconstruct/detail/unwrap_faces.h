@@ -16,8 +16,9 @@ class Faces {
  public:
   static constexpr std::int32_t kOutside = 0;
 
-  /// Finds residues and holes; rows in parallel.
-  Faces(const ImageF& wrapped, const Mask& mask);
+  /// Finds residues and holes; rows in parallel. With more than `most_residues` nothing else is done.
+  Faces(const ImageF& wrapped, const Mask& mask, std::size_t most_residues);
+  [[nodiscard]] bool overcharged() const { return overcharged_; }
 
   /// Face (x, row) has the corners (x, row) and (x + 1, row + 1); beyond the image it is kOutside.
   std::int32_t At(int x, int row);
@@ -55,6 +56,7 @@ class Faces {
   std::vector<std::int32_t> row_starts_;                  ///< first run node of every row of faces
   std::unordered_map<std::int64_t, std::int32_t> whole_;  ///< numbers of whole faces
   std::vector<std::int32_t> charged_;
+  bool overcharged_ = false;
 };
 
 }  // namespace striae::reconstruct::detail

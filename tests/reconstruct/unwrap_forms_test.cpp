@@ -1,10 +1,8 @@
 // The dual form of the unwrapping against Kruskal's, which follows the paper line by line: same pixels, same regions.
 #include "reconstruct/detail/unwrap_forms.h"
 
-#include <chrono>
 #include <cmath>
 #include <cstring>
-#include <iostream>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -115,7 +113,9 @@ TEST(UnwrapForms, AChargedHoleIsCutOnce) {
 TEST(UnwrapForms, TheBudgetStopsTheSearch) {
   std::mt19937 engine(4);
   const ImageF noise = NoisyPhase(200, 200, 4, engine);
-  EXPECT_FALSE(detail::FindCuts(noise, Mask(200, 200, 1), 1000).has_value());
+  EXPECT_FALSE(detail::FindCuts(noise, Mask(200, 200, 1), 1000).has_value());  // too many residues
+  const ImageF some = NoisyPhase(200, 200, 0.9, engine);
+  EXPECT_FALSE(detail::FindCuts(some, Mask(200, 200, 1), 20000).has_value());  // too many edges
 }
 
 }  // namespace
