@@ -179,7 +179,7 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
   result.mask = Turned(mask, horizontal);
   result.amplitude = Turned(signal.amplitude, horizontal);
   result.background = Turned(signal.background, horizontal);
-  const ImageF wrapped = Turned(signal.phase, horizontal);
+  ImageF wrapped = Turned(signal.phase, horizontal);
 
   detail::CutSteps(wrapped, result.mask, kStep_rad);
   detail::CleanMask(result.mask, options.least_region_px);
@@ -188,6 +188,7 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
                 "the stripes are too faint everywhere to carry phase; check flash, ISO and distance");
   }
   result.unwrapped = Unwrap(wrapped, result.mask);
+  wrapped = {};
   result.modulation = ImageF(width, height);
   ParallelLines(height, [&](int row) {
     for (int x = 0; x < width; ++x) {

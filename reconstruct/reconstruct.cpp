@@ -121,7 +121,7 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
   phase->amplitude = phase->background = {};
   stages.Done("order");
 
-  const ImageRgb colour = detail::ColourWithoutStripes(photograph.colour, order, phase->direction);
+  ImageRgb colour = detail::ColourWithoutStripes(photograph.colour, order, phase->direction);
   stages.Done("colour");
 
   const double slack_mm = options.outside_working_share * middle_mm;
@@ -129,7 +129,8 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
   const ImageF depth = detail::Triangulate(std::move(order), calibration, rays, calibration.near_mm - slack_mm,
                                            calibration.far_mm + slack_mm);
   stages.Done("triangulation");
-  out.surface = detail::BuildSurface(depth, colour, phase->modulation, calibration, rays, options.faces);
+  out.surface =
+      detail::BuildSurface(depth, std::move(colour), std::move(phase->modulation), calibration, rays, options.faces);
   stages.Done("mesh");
   if (out.surface.size() == 0) {
     return Fail(ErrorCode::kMeasurementRefused, "no point lies within the working distance of " +

@@ -153,8 +153,8 @@ ImageRgb ColourWithoutStripes(const ImageRgb& photograph, const ImageF& order, S
   return out;
 }
 
-Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& modulation,
-                     const Calibration& calibration, const RayTable& table, bool faces) {
+Surface BuildSurface(const ImageF& depth, ImageRgb colour, ImageF modulation, const Calibration& calibration,
+                     const RayTable& table, bool faces) {
   Surface surface;
   surface.sensor_width_px = depth.width();
   surface.sensor_height_px = depth.height();
@@ -192,6 +192,8 @@ Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& 
     std::vector<Eigen::Vector2d> rays;
     for (int row = first; row < last; ++row) fill_row(row, rays);
   });
+  colour = {};  // makes room for the faces
+  modulation = {};
   // Counted before they are written: collected row by row they would be in memory twice.
   std::partial_sum(face_starts.begin(), face_starts.end(), face_starts.begin());
   surface.faces.resize(face_starts.back());

@@ -19,7 +19,7 @@ ImageRgb ColourWithoutStripes(const ImageRgb& photograph, const ImageF& order, S
 
 /// Points in row-major order of their pixels, and two triangles for every 2 x 2 of neighbours (one where three are
 /// valid). Sides that run deeper than grazing incidence of 75 degrees explains are cut.
-Surface BuildSurface(const ImageF& depth, const ImageRgb& colour, const ImageF& modulation,
-                     const Calibration& calibration, const RayTable& table, bool faces);
+Surface BuildSurface(const ImageF& depth, ImageRgb colour, ImageF modulation, const Calibration& calibration,
+                     const RayTable& table, bool faces);
 
 }  // namespace striae::reconstruct::detail
