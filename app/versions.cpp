@@ -35,8 +35,8 @@ std::string VersionText() {
       {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
       {"libgphoto2", STRIAE_GPHOTO2_VERSION},
       {"libsodium", STRIAE_SODIUM_VERSION},
-      {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-                                    NLOHMANN_JSON_VERSION_PATCH)},
+      {"nlohmann-json",
+       fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
       {"OpenCV", CV_VERSION},
       {"PCL", PCL_VERSION_PRETTY},
       {"SQLite", SQLITE_VERSION}};
