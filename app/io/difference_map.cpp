@@ -54,11 +54,10 @@ ImageRgb ColourBar(double scale_mm, int height_px) {
     const double y0 = top + (bottom - top) * i / kSlices, y1 = top + (bottom - top) * (i + 1) / kSlices + 0.3;
     bar.Polygon({{left, y0}, {right, y0}, {right, y1}, {left, y1}}, Diverging(1 - 2 * (i + 0.5) / kSlices), kInk, 0);
   }
-  const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(scale_mm / 2) - 1e-9)));
   for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
     const double y = top + (bottom - top) * (1 - share) / 2;
     char label[32];
-    std::snprintf(label, sizeof label, "%+.*f", decimals, share * scale_mm);
+    std::snprintf(label, sizeof label, "%+g", share * scale_mm);
     bar.Line({{right, y}, {right + 3, y}}, 0.7, kInk);
     bar.Text({right + 5, y + 3}, 8, share == 0 ? "0" : label, kInk);
   }
