@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "acquire/detail/frame.h"
-#include "acquire/worker/camera.h"
+#include "acquire/worker/detail/camera.h"
 
 namespace striae::acquire::worker {
 namespace {

@@ -1,4 +1,4 @@
-#include "acquire/worker/camera.h"
+#include "acquire/worker/detail/camera.h"
 
 #include <cstdlib>
 #include <memory>
