@@ -45,7 +45,9 @@ Status CheckFit(const Photograph& photograph, const Calibration& calibration) {
 /// order, and beyond the grating's light.
 ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions, const Calibration& calibration) {
   constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
-  constexpr float kEnd = 0.4F;  // light ends at -0.25; up to here the filtered phase still follows it
+  // The surface ends at the centres of the first and the last bright stripe: the light ends a quarter stripe beyond,
+  // and there the window mixes lit with unlit, which bends the phase by millimetres of depth.
+  constexpr float kEnd = 0.0F;
   const float lowest = calibration.stripes ? -kEnd : -std::numeric_limits<float>::infinity();
   const float highest = calibration.stripes ? static_cast<float>(*calibration.stripes) - 1 + kEnd
                                             : std::numeric_limits<float>::infinity();

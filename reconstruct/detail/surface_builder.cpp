@@ -63,7 +63,7 @@ void FillLine(const float* order, int length, Rgb8* colour) {
     const Crest& before = crests[next == 0 ? 0 : next - 1];
     const float span = center(after) - center(before);
     const float t = span > 0 ? std::clamp((at - center(before)) / span, 0.0F, 1.0F) : 0.0F;
-    const auto blend = [t](float a, float b) { return static_cast<std::uint8_t>(a + t * (b - a) + 0.5F); };
+    const auto blend = [t](float a, float b) { return static_cast<std::uint8_t>(std::lround(a + t * (b - a))); };
     colour[x] = {blend(before.r, after.r), blend(before.g, after.g), blend(before.b, after.b)};
   }
 }
