@@ -24,17 +24,18 @@ function(striae_heavy_library name)
   set_property(TARGET striae_${name} PROPERTY JOB_POOL_COMPILE heavy)
 endfunction()
 
-# striae_test(<name> SOURCES <files> LIBS <libraries> [LABELS <labels>])
-# One GoogleTest program <name>_tests, its cases known to ctest as <name>.<Suite>.<Case>.
-# Suites whose name ends in "Long" get the label `long` and run only with script/test --all.
+# striae_test(<name> SOURCES <files> LIBS <libraries>)
+# One GoogleTest program <name>_tests, its cases known to ctest as <name>.<Suite>.<Case> with the label <name>.
+# Suites whose name ends in "Long" get the label `long` instead and run only with script/test --all.
 function(striae_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name}_tests ${ARG_SOURCES})
   target_link_libraries(${name}_tests PRIVATE striae_options striae_test_support ${ARG_LIBS})
   target_compile_definitions(${name}_tests PRIVATE
     STRIAE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" STRIAE_TEST_DATA="${STRIAE_TEST_DATA}" STRIAE_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  # A list of labels would be taken apart into further properties: one label each.
   gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST TEST_FILTER "-*Long.*"
-    PROPERTIES TIMEOUT 900 LABELS "${name};${ARG_LABELS}")
+    PROPERTIES TIMEOUT 900 LABELS ${name})
   gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST TEST_FILTER "*Long.*" TEST_LIST ${name}_long
-    PROPERTIES TIMEOUT 3600 LABELS "${name};long;${ARG_LABELS}")
+    PROPERTIES TIMEOUT 3600 LABELS long)
 endfunction()
