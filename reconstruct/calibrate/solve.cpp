@@ -35,26 +35,24 @@ struct Prior {
   double sigma = 1;
 };
 
-const std::vector<Prior>& Priors(const RigParameters& nominal) {
-  static thread_local std::vector<Prior> priors;
-  priors = {{0, 0, 0.02 * nominal.camera[0]},
-            {0, 1, 0.005},
-            {0, 2, 50},
-            {0, 3, 50},
-            {0, 4, 0.1},
-            {0, 5, 0.1},
-            {1, 0, 10},
-            {1, 1, 20},
-            {1, 2, 25},
-            {1, 3, 0.05},
-            {1, 4, 0.03},
-            {1, 5, 0.03},
-            {1, 6, 0.02 * nominal.projector[6]},
-            {1, 7, 15},
-            {1, 8, 0.1},
-            {3, 0, 0.1},
-            {3, 1, 0.1}};
-  return priors;
+std::vector<Prior> Priors(const RigParameters& nominal) {
+  return {{0, 0, 0.02 * nominal.camera[0]},
+          {0, 1, 0.005},
+          {0, 2, 50},
+          {0, 3, 50},
+          {0, 4, 0.1},
+          {0, 5, 0.1},
+          {1, 0, 10},
+          {1, 1, 20},
+          {1, 2, 25},
+          {1, 3, 0.05},
+          {1, 4, 0.03},
+          {1, 5, 0.03},
+          {1, 6, 0.02 * nominal.projector[6]},
+          {1, 7, 15},
+          {1, 8, 0.1},
+          {3, 0, 0.1},
+          {3, 1, 0.1}};
 }
 
 struct PriorResidual {
