@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/app/striae_program.h"
+#include "tests/support/files.h"
 #include "tests/support/temp_dir.h"
 
 namespace striae {
@@ -16,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using testing::Ran;
+using testing::ReadText;
 using testing::Striae;
 using testing::TempDir;
 
@@ -42,11 +44,6 @@ class Scene {
   TempDir folder_;
 };
 
-std::string Read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {(std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>()};
-}
-
 void Write(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 std::size_t FilesIn(const fs::path& folder) {
@@ -66,7 +63,7 @@ void ExpectRefused(const fs::path& image, const fs::path& calibration, const std
 
 TEST(BadPhotograph, TruncatedAnywhere) {
   const TempDir folder;
-  const std::string whole = Read(Scene::Get().photograph());
+  const std::string whole = ReadText(Scene::Get().photograph());
   for (const double share : {0.0, 0.001, 0.3, 0.999}) {
     Write(folder / "cut.jpg", whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
     ExpectRefused(folder / "cut.jpg", Scene::Get().calibration(), "take the file from the camera's card again");
@@ -112,7 +109,7 @@ TEST(BadCalibration, NamesTheField) {
     Write(folder / "cal.json", text);
     ExpectRefused(Scene::Get().photograph(), folder / "cal.json", "[bad-calibration]");
   }
-  auto rig = nlohmann::json::parse(Read(Scene::Get().calibration()));
+  auto rig = nlohmann::json::parse(ReadText(Scene::Get().calibration()));
   rig["camera"]["fx"] = -5;
   Write(folder / "cal.json", rig.dump());
   ExpectRefused(Scene::Get().photograph(), folder / "cal.json", "/camera/fx must be positive");
@@ -149,7 +146,7 @@ TEST(BadOutline, CrossingItself) {
 
 TEST(BadOutline, TheGoodOneIsMeasured) {
   // The refusals above would mean little if nothing passed.
-  const Ran ran = MeasureWound(nlohmann::json::parse(Read(Scene::Get().outline())));
+  const Ran ran = MeasureWound(nlohmann::json::parse(ReadText(Scene::Get().outline())));
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_EQ(ran.Json().at("analysis"), "wound");
 }
