@@ -51,9 +51,10 @@ using ImageRgb = Image<Rgb8>;
 
 /// A decoded photograph, in sensor orientation (EXIF Orientation is never applied).
 struct Photograph {
-  ImageF luminance;               ///< 0..1 as encoded (sRGB not linearised)
-  ImageRgb colour;                ///< 8 bit; grey inputs have r = g = b
+  ImageF luminance;               ///< 0..1 as encoded (sRGB not linearised) unless `linear`
+  ImageRgb colour;                ///< 8 bit, sRGB; grey inputs have r = g = b
   float saturation_level = 1.0F;  ///< luminance at and above which a pixel carries no information
+  bool linear = false;            ///< luminance is proportional to light already (raw files)
 };
 
 }  // namespace striae

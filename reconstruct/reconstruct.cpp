@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "reconstruct/colour.h"
 #include "reconstruct/detail/parallel.h"
 #include "reconstruct/detail/surface_builder.h"
 
@@ -123,7 +124,7 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
   phase->amplitude = phase->background = {};
   stages.Done("order");
 
-  ImageRgb colour = detail::ColourWithoutStripes(photograph.colour, order, phase->direction);
+  ImageRgb colour = ColourWithoutStripes(photograph.colour, order, phase->direction);
   stages.Done("colour");
 
   const double slack_mm = options.outside_working_share * middle_mm;

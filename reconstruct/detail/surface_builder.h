@@ -1,4 +1,4 @@
-// From absolute stripe orders to points, colours and faces.
+// From absolute stripe orders to points and faces.
 #pragma once
 
 #include "core/calibration.h"
@@ -11,11 +11,6 @@ namespace striae::reconstruct::detail {
 /// Depth z (mm) of every pixel whose absolute order is not NaN; NaN where the ray and the light do not meet between
 /// `near_mm` and `far_mm`.
 ImageF Triangulate(ImageF order, const Calibration& calibration, const RayTable& table, double near_mm, double far_mm);
-
-/// Colour without stripes: along every line across the stripes, the colours around the bright centres (whole orders)
-/// are interpolated across the dark between them. Where a line has no bright centre nearby, the photograph's own colour
-/// stays.
-ImageRgb ColourWithoutStripes(const ImageRgb& photograph, const ImageF& order, StripeDirection direction);
 
 /// Points in row-major order of their pixels, and two triangles for every 2 x 2 of neighbours (one where three are
 /// valid). Sides that run deeper than grazing incidence of 75 degrees explains are cut.
