@@ -1,83 +1,60 @@
 #include "core/calibration.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <nlohmann/json.hpp>
+
+#include "core/detail/calibration_fields.h"
 
 namespace striae {
 namespace {
 
+using detail::Fields;
 using nlohmann::json;
 
-/// Collects the first thing wrong, so that the reader below reads as a list of fields.
-class Fields {
- public:
-  explicit Fields(const json& root) : root_(root) {}
+// Far beyond any rig, near enough that the optics stay finite.
+constexpr double kLargestDistortion = 1000, kLargestRotation_rad = 7, kLargestDistance_mm = 1e6;
+constexpr double kLargestFocalSides = 1000, kFarthestCenterSides = 10;  // times the picture's longer side
 
-  double Number(const char* path) { return Number(path, root_.contains(json::json_pointer(path))); }
-  double NumberOr(const char* path, double fallback) {
-    return root_.contains(json::json_pointer(path)) ? Number(path, true) : fallback;
-  }
-  double Positive(const char* path) {
-    const double value = Number(path);
-    if (!problem_.empty() || value > 0) return value;
-    problem_ = std::string(path) + " must be positive";
-    return value;
-  }
-  Eigen::Vector3d Vector(const char* path) {
-    const std::string base(path);
-    return {Number((base + "/0").c_str()), Number((base + "/1").c_str()), Number((base + "/2").c_str())};
-  }
-  void Require(bool holds, const std::string& what) {
-    if (!holds && problem_.empty()) problem_ = what;
-  }
-  [[nodiscard]] const std::string& problem() const { return problem_; }
-
- private:
-  double Number(const char* path, bool present) {
-    const json::json_pointer pointer(path);
-    if (!present || !root_.at(pointer).is_number()) {
-      Require(false, std::string(path) + (present ? " is not a number" : " is missing"));
-      return 0;
-    }
-    const double value = root_.at(pointer).get<double>();
-    Require(std::isfinite(value) && std::abs(value) < 1e9, std::string(path) + " is not a sensible number");
-    return value;
-  }
-
-  const json& root_;
-  std::string problem_;
-};
-
-CameraModel ReadCamera(Fields& fields) {
+CameraModel ReadCamera(Fields& fields, double side_px) {
   CameraModel camera;
   camera.fx = fields.Positive("/camera/fx");
   camera.fy = fields.Positive("/camera/fy");
+  for (const char* focal : {"/camera/fx", "/camera/fy"}) {
+    const double value = fields.Within(focal, kLargestFocalSides * side_px, 0);
+    fields.Require(value > side_px / kLargestFocalSides, std::string(focal) + " is not a sensible number");
+  }
   camera.cx = fields.Number("/camera/cx");
   camera.cy = fields.Number("/camera/cy");
-  camera.k1 = fields.NumberOr("/camera/k1", 0);
-  camera.k2 = fields.NumberOr("/camera/k2", 0);
-  camera.p1 = fields.NumberOr("/camera/p1", 0);
-  camera.p2 = fields.NumberOr("/camera/p2", 0);
+  fields.Within("/camera/cx", kFarthestCenterSides * side_px, 0);
+  fields.Within("/camera/cy", kFarthestCenterSides * side_px, 0);
+  camera.k1 = fields.Within("/camera/k1", kLargestDistortion, 0);
+  camera.k2 = fields.Within("/camera/k2", kLargestDistortion, 0);
+  camera.p1 = fields.Within("/camera/p1", kLargestDistortion, 0);
+  camera.p2 = fields.Within("/camera/p2", kLargestDistortion, 0);
   return camera;
 }
 
 ProjectorModel ReadProjector(Fields& fields, const json& root) {
   ProjectorModel projector;
-  projector.center_mm = fields.Vector("/projector/center_mm");
+  projector.center_mm = fields.Vector("/projector/center_mm", kLargestDistance_mm);
   const std::string model = root.at("projector").value("model", "pinhole");
   if (model == "angular") {
     projector.kind = ProjectorModel::Kind::kAngular;
     projector.a0_rad = fields.Number("/projector/a0_rad");
+    fields.Within("/projector/a0_rad", kLargestRotation_rad, 0);
     projector.delta_a_rad = fields.Number("/projector/delta_a_rad");
+    fields.Within("/projector/delta_a_rad", kLargestRotation_rad, 0);
     fields.Require(projector.delta_a_rad != 0, "/projector/delta_a_rad is zero");
     return projector;
   }
   fields.Require(model == "pinhole", "/projector/model is neither \"pinhole\" nor \"angular\"");
-  projector.rotation_rodrigues = fields.Vector("/projector/rotation_rodrigues");
+  projector.rotation_rodrigues = fields.Vector("/projector/rotation_rodrigues", kLargestRotation_rad);
   projector.focal_stripes = fields.Positive("/projector/focal_stripes");
   projector.center_order = fields.Number("/projector/center_order");
-  projector.k1 = fields.NumberOr("/projector/k1", 0);
+  projector.k1 = fields.Within("/projector/k1", kLargestDistortion, 0);
   return projector;
 }
 
@@ -96,8 +73,10 @@ void ReadGrating(Fields& fields, const json& root, Calibration& calibration) {
 
 void ReadOrigin(Fields& fields, const json& root, Calibration& calibration) {
   if (root.contains("quality") && root.at("quality").is_object()) {
-    calibration.quality = Calibration::Quality{fields.NumberOr("/quality/sd_mm", 0),
-                                               static_cast<int>(fields.NumberOr("/quality/photographs", 0))};
+    const double sd_mm = fields.NumberOr("/quality/sd_mm", 0);
+    const double photographs = fields.NumberOr("/quality/photographs", 0);
+    fields.Require(sd_mm >= 0 && photographs >= 0, "/quality has a negative number");
+    calibration.quality = Calibration::Quality{sd_mm, static_cast<int>(photographs)};
   }
   for (const json& source : root.value("sources", json::array())) {
     const auto sha256 = Sha256::Parse(source.at("sha256").get<std::string>());
@@ -118,13 +97,15 @@ Calibration ReadAll(Fields& fields, const json& root) {
   if (!fields.problem().empty()) return calibration;
   calibration.image_width_px = static_cast<int>(width);
   calibration.image_height_px = static_cast<int>(height);
-  calibration.camera = ReadCamera(fields);
+  calibration.camera = ReadCamera(fields, std::max(width, height));
   calibration.projector = ReadProjector(fields, root);
   ReadGrating(fields, root, calibration);
   calibration.near_mm = fields.Positive("/working_distance_mm/0");
   calibration.far_mm = fields.Positive("/working_distance_mm/1");
   fields.Require(calibration.near_mm < calibration.far_mm, "/working_distance_mm is not [near, far]");
+  fields.Within("/working_distance_mm/1", kLargestDistance_mm, 0);
   ReadOrigin(fields, root, calibration);
+  detail::ReadUncertainty(fields, root, calibration);
   return calibration;
 }
 
@@ -151,15 +132,46 @@ std::string_view ToString(StripeDirection direction) {
   return direction == StripeDirection::kHorizontal ? "horizontal" : "vertical";
 }
 
+double* CalibrationParameter(Calibration& c, std::string_view name) {
+  const std::pair<std::string_view, double*> common[] = {{"camera.fx", &c.camera.fx},
+                                                         {"camera.fy", &c.camera.fy},
+                                                         {"camera.cx", &c.camera.cx},
+                                                         {"camera.cy", &c.camera.cy},
+                                                         {"camera.k1", &c.camera.k1},
+                                                         {"camera.k2", &c.camera.k2},
+                                                         {"camera.p1", &c.camera.p1},
+                                                         {"camera.p2", &c.camera.p2},
+                                                         {"projector.center_x", &c.projector.center_mm.x()},
+                                                         {"projector.center_y", &c.projector.center_mm.y()},
+                                                         {"projector.center_z", &c.projector.center_mm.z()}};
+  const std::pair<std::string_view, double*> pinhole[] = {{"projector.rotation_x", &c.projector.rotation_rodrigues.x()},
+                                                          {"projector.rotation_y", &c.projector.rotation_rodrigues.y()},
+                                                          {"projector.rotation_z", &c.projector.rotation_rodrigues.z()},
+                                                          {"projector.focal_stripes", &c.projector.focal_stripes},
+                                                          {"projector.center_order", &c.projector.center_order},
+                                                          {"projector.k1", &c.projector.k1}};
+  const std::pair<std::string_view, double*> angular[] = {{"projector.a0_rad", &c.projector.a0_rad},
+                                                          {"projector.delta_a_rad", &c.projector.delta_a_rad}};
+  const auto find = [&](const auto& list) -> double* {
+    for (const auto& [known, field] : list) {
+      if (known == name) return field;
+    }
+    return nullptr;
+  };
+  if (double* field = find(common)) return field;
+  return c.projector.kind == ProjectorModel::Kind::kAngular ? find(angular) : find(pinhole);
+}
+
 Result<Calibration> CalibrationFromJson(std::string_view text) {
   const auto bad = [](const std::string& what) {
     return Fail(ErrorCode::kBadCalibration,
                 "not a usable calibration: " + what + "; calibrate the rig again or restore the file from the study");
   };
+  const auto root = detail::ParseStrictJson(text);
+  if (!root) return bad(root.error().message);
   try {
-    const json root = json::parse(text);
-    Fields fields(root);
-    Calibration calibration = ReadAll(fields, root);
+    Fields fields(*root);
+    Calibration calibration = ReadAll(fields, *root);
     if (!fields.problem().empty()) return bad(fields.problem());
     return calibration;
   } catch (const json::exception& e) {
@@ -187,6 +199,7 @@ std::string ToJsonText(const Calibration& c) {
   for (const auto& source : c.sources) {
     root["sources"].push_back({{"sha256", source.sha256.ToString()}, {"position_mm", source.position_mm}});
   }
+  if (c.uncertainty) root["uncertainty"] = detail::ToJson(*c.uncertainty);
   return root.dump(1) + "\n";
 }
 

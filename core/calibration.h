@@ -40,6 +40,13 @@ struct CalibrationSource {
   double position_mm = 0;
 };
 
+/// How well a calibration determined its parameters: their joint covariance, so that anything computed from them can
+/// carry a standard uncertainty (J covariance J^T, J by CalibrationParameter and differences).
+struct CalibrationUncertainty {
+  std::vector<std::string> names;  ///< of the parameters as CalibrationParameter knows them; each once
+  Eigen::MatrixXd covariance;      ///< symmetric, in the order of `names`; units px, mm, rad, stripes
+};
+
 struct Calibration {
   int image_width_px = 0, image_height_px = 0;
   CameraModel camera;
@@ -53,9 +60,16 @@ struct Calibration {
   };
   std::optional<Quality> quality;
   std::vector<CalibrationSource> sources;
+  std::optional<CalibrationUncertainty> uncertainty;
 };
 
-/// Reads striae-calibration/1. kBadCalibration with the offending field for anything missing, not finite or absurd.
+/// The field of that name, or nullptr: "camera.fx", fy, cx, cy, k1, k2, p1, p2; "projector.center_x", center_y,
+/// center_z (mm); pinhole: "projector.rotation_x", rotation_y, rotation_z (Rodrigues, rad), focal_stripes,
+/// center_order, k1; angular: "projector.a0_rad", delta_a_rad.
+double* CalibrationParameter(Calibration& calibration, std::string_view name);
+
+/// Reads striae-calibration/1. kBadCalibration with the offending field for anything missing, given twice, not finite
+/// or absurd.
 Result<Calibration> CalibrationFromJson(std::string_view text);
 /// Pretty-printed, doubles with round-trip precision.
 std::string ToJsonText(const Calibration& calibration);

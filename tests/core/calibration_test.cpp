@@ -80,6 +80,49 @@ TEST(Calibration, NamesTheFieldThatCannotBe) {
   }
 }
 
+json SmallRigWithUncertainty() {
+  json rig = SmallRig();
+  rig["uncertainty"] = {{"names", {"camera.fx", "projector.center_y"}}, {"covariance", {{4.0, -0.5}, {-0.5, 0.09}}}};
+  return rig;
+}
+
+TEST(Calibration, CarriesTheCovarianceOfItsParameters) {
+  const auto first = CalibrationFromJson(SmallRigWithUncertainty().dump());
+  ASSERT_TRUE(first) << first.error().message;
+  ASSERT_TRUE(first->uncertainty);
+  EXPECT_EQ(first->uncertainty->names[1], "projector.center_y");
+  EXPECT_EQ(first->uncertainty->covariance(1, 0), -0.5);
+  EXPECT_EQ(ToJsonText(*first), ToJsonText(*CalibrationFromJson(ToJsonText(*first))));
+  EXPECT_FALSE(CalibrationFromJson(SmallRig().dump())->uncertainty);
+}
+
+TEST(Calibration, RefusesACovarianceThatIsNone) {
+  const Nonsense cases[] = {{"/uncertainty/covariance", {{4.0, -0.5}}, "one row"},
+                            {"/uncertainty/covariance", {{4.0, -0.5}, {-0.5}}, "square"},
+                            {"/uncertainty/covariance", {{4.0, -0.5}, {-0.4, 0.09}}, "symmetric"},
+                            {"/uncertainty/covariance", {{4.0, -0.5}, {-0.5, -0.09}}, "negative diagonal"},
+                            {"/uncertainty/covariance", {{4.0, -0.7}, {-0.7, 0.09}}, "correlation"},
+                            {"/uncertainty/covariance", {{4.0, "x"}, {-0.5, 0.09}}, "/uncertainty/covariance/0/1"},
+                            {"/uncertainty/names", {"camera.fx", "camera.fx"}, "twice"},
+                            {"/uncertainty/names", {"camera.fx", "projector.a0_rad"}, "does not have"},
+                            {"/uncertainty", {1, 2}, "at()"}};
+  for (const auto& [pointer, value, named] : cases) {
+    json rig = SmallRigWithUncertainty();
+    rig[json::json_pointer(pointer)] = value;
+    const auto calibration = CalibrationFromJson(rig.dump());
+    ASSERT_FALSE(calibration) << pointer << " = " << value;
+    EXPECT_THAT(calibration.error().message, HasSubstr(named));
+  }
+}
+
+TEST(Calibration, NamesEachOfItsParameters) {
+  auto rig = *CalibrationFromJson(SmallRig().dump());
+  *CalibrationParameter(rig, "projector.rotation_z") += 1;
+  EXPECT_EQ(rig.projector.rotation_rodrigues.z(), 0.98);
+  EXPECT_EQ(CalibrationParameter(rig, "projector.delta_a_rad"), nullptr);  // of the other model
+  EXPECT_EQ(CalibrationParameter(rig, "fx"), nullptr);
+}
+
 TEST(Calibration, RefusesWhatIsNoJson) {
   for (const char* text : {"", "{", "[]", "null", "{\"format\":\"striae-calibration/1\",\"image_size\":[NaN,1]}"}) {
     EXPECT_FALSE(CalibrationFromJson(text)) << text;
