@@ -1,9 +1,9 @@
 // From what a person types to the entity that it names.
 #include <algorithm>
-#include <array>
 
 #include "store/detail/impl.h"
 #include "store/detail/read.h"
+#include "store/detail/schema.h"
 
 namespace striae::store {
 namespace {
@@ -14,8 +14,6 @@ using detail::Refuse;
 using detail::RowView;
 
 constexpr std::size_t kShortestPrefix = 8;  // 32 bits: two of 10,000 captures share it once in a hundred studies
-constexpr std::array kTables = {"study",   "site",    "subject", "visit",   "device",      "calibration", "session",
-                                "capture", "outline", "derived", "outcome", "measurement", "consent",     "object"};
 
 bool IsIdText(std::string_view text) {
   return text.size() >= kShortestPrefix && std::all_of(text.begin(), text.end(), [](char c) {
@@ -44,7 +42,8 @@ Result<Record::Found> Record::Find(std::string_view name) {
     if (all.empty()) Append(all, database, "device", "serial = ?", text);
     if (all.empty() && IsIdText(text)) {
       // Hexadecimal digits and '-' only, so that nothing in it means anything to GLOB.
-      for (const char* table : kTables) Append(all, database, table, "id GLOB ?", text + "*");
+      for (const std::string& table : detail::AuditedTables(database))
+        Append(all, database, table, "id GLOB ?", text + "*");
       if (all.empty()) Append(all, database, "derived", "sha256 GLOB ?", text + "*");
     }
     if (all.empty()) {

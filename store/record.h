@@ -26,6 +26,10 @@
 
 namespace striae::store {
 
+namespace detail {
+struct Access;
+}
+
 class Record {
  public:
   /// A new study in `folder`, which must be empty or absent. `origin` (16 random bytes) names this copy of the study.
@@ -141,8 +145,10 @@ class Record {
   /// each object is there and unaltered. `expected`: a head noted earlier must still be part of the chain.
   Result<CheckReport> Check(std::optional<AuditHead> expected = std::nullopt);
 
- private:
   struct Impl;
+
+ private:
+  friend struct detail::Access;
   explicit Record(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

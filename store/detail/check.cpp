@@ -1,24 +1,23 @@
+// The trail's chains, and the rows of the record against them.
 #include "store/detail/check.h"
 
-#include <map>
+#include <algorithm>
 #include <set>
 
 #include "store/detail/audit_hash.h"
 #include "store/detail/change.h"
 #include "store/detail/codec.h"
+#include "store/detail/schema.h"
+#include "store/detail/trail.h"
 
 namespace striae::store::detail {
 namespace {
 
 using nlohmann::json;
-using Severity = Finding::Severity;
-
-void Add(CheckReport& report, Severity severity, std::string where, std::string what) {
-  report.findings.push_back({severity, std::move(where), std::move(what)});
-}
 
 std::string NameOf(const AuditRow& row) {
-  return "audit row " + std::to_string(row.sequence) + " (" + row.entity + " " + row.entity_id + ")";
+  std::string name = "audit row " + std::to_string(row.sequence);
+  return name.append(" (").append(row.entity).append(" ").append(row.entity_id).append(")");
 }
 
 /// Follows one copy's chain row by row.
@@ -26,59 +25,57 @@ struct ChainWalk {
   Sha256 hash;
   std::int64_t sequence = 0;
   UtcTime time{};
+  bool unreadable = false;  ///< the last row could not be read, so the next cannot be held against it
 
-  void Step(const AuditRow& row, CheckReport& report) {
+  void Step(const AuditRow& row, Findings& findings) {
     if (row.sequence != sequence + 1) {
-      Add(report, Severity::kError, NameOf(row),
-          "rows " + std::to_string(sequence + 1) + " to " + std::to_string(row.sequence - 1) +
-              " of the audit trail are missing; restore a backup");
-    } else if (row.previous_hash != hash) {
-      Add(report, Severity::kError, NameOf(row),
-          "does not follow on row " + std::to_string(sequence) + "; one of the two was altered; restore a backup");
+      findings.Error(NameOf(row), "rows " + std::to_string(sequence + 1) + " to " + std::to_string(row.sequence - 1) +
+                                      " of the audit trail are missing; restore a backup");
+    } else if (row.previous_hash != hash && !unreadable) {
+      findings.Error(NameOf(row), "does not follow on row " + std::to_string(sequence) +
+                                      "; one of the two was altered; restore a backup");
     }
     if (HashOf(row) != row.hash) {
-      Add(report, Severity::kError, NameOf(row), "was altered: its content does not give its hash; restore a backup");
+      findings.Error(NameOf(row), "was altered: its content does not give its hash; restore a backup");
     }
     if (row.stamp.now < time) {
-      Add(report, Severity::kWarning, NameOf(row),
-          "the clock of " + row.stamp.machine + " was set back: " + row.stamp.now.ToString() + " after " +
-              time.ToString() + "; the order is that of the row numbers");
+      findings.Warning(NameOf(row), "the clock of " + row.stamp.machine + " was set back: " +
+                                        row.stamp.now.ToString() + " after " + time.ToString() +
+                                        "; the order is that of the row numbers");
     }
     hash = row.hash;
     sequence = row.sequence;
     time = row.stamp.now;
+    unreadable = false;
   }
 };
 
-/// Tables whose rows have an audit trail.
-constexpr const char* kAudited[] = {"study",   "site",    "subject",     "consent",    "visit",
-                                    "object",  "device",  "calibration", "session",    "capture",
-                                    "outline", "derived", "outcome",     "measurement"};
-
-using States = std::map<std::string, json>;
-
-/// What the rows of one table must be by the trail.
-States StatesByTrail(Database& database, const std::string& table) {
-  States states;
-  struct Step {
-    std::string action, id, field, value;
-  };
-  const auto steps = database.Rows(
-      "SELECT action, entity_id, field, coalesce(new_value, '') FROM audit WHERE entity = ? ORDER BY origin, sequence",
-      [](const RowView& row) {
-        return Step{row.Text(0), row.Text(1), row.Text(2), row.Text(3)};
-      },
-      table);
-  for (const Step& step : steps) {
-    json value = json::parse(step.value, nullptr, false);
-    if (step.action == "create") {
-      states[step.id] = std::move(value);
-    } else if (states[step.id].is_object()) {
-      states[step.id][step.field] = std::move(value);
+/// The heads that were noted outside the study.
+class Noted {
+ public:
+  Noted(const std::vector<AuditHead>& heads, const std::string& own) : heads_(heads) {
+    for (AuditHead& head : heads_) {
+      if (head.origin.empty()) head.origin = own;
     }
   }
-  return states;
-}
+  void Pass(const AuditRow& row, Findings& findings) const {
+    for (const AuditHead& head : heads_) {
+      if (head.origin != row.origin || head.sequence != row.sequence || head.hash == row.hash) continue;
+      findings.Error(NameOf(row), "is not the row whose hash was noted earlier; the trail was rewritten");
+    }
+  }
+  void End(std::map<std::string, ChainWalk>& walks, Findings& findings) const {
+    for (const AuditHead& head : heads_) {
+      if (walks[head.origin].sequence >= head.sequence) continue;
+      findings.Error("audit trail", "was cut at its end: it has " + std::to_string(walks[head.origin].sequence) +
+                                        " rows of copy " + head.origin + ", but row " + std::to_string(head.sequence) +
+                                        " was noted earlier; restore a backup");
+    }
+  }
+
+ private:
+  std::vector<AuditHead> heads_;
+};
 
 /// Columns in which a row differs from its trail. A column that a later migration added stands in no older trail row.
 std::string Differences(const json& row, const json& by_trail) {
@@ -92,98 +89,115 @@ std::string Differences(const json& row, const json& by_trail) {
   return names;
 }
 
-void CheckTable(Database& database, const std::string& table, CheckReport& report) {
-  States states = StatesByTrail(database, table);
-  const auto add = [&](const std::string& id, std::string what) {
-    std::string where = table;
-    where.append(" ").append(id);
-    Add(report, Severity::kError, std::move(where), std::move(what));
-  };
-  const std::string select_ids = "SELECT id FROM " + table;
-  for (const std::string& id : database.Rows(select_ids, [](const RowView& row) { return row.Text(0); })) {
-    const auto found = states.find(id);
-    if (found == states.end()) {
-      add(id, "has no audit row: it was written past the record, or the trail was cut; restore a backup");
-      continue;
-    }
-    const std::string differences = Differences(RowAsJson(database, table, id), found->second);
-    if (!differences.empty()) {
-      std::string what = "was changed past the audit trail (";
-      what.append(differences).append("); see 'striae history ").append(id).append("', restore a backup");
-      add(id, std::move(what));
-    }
-    states.erase(found);
+class TableCheck {
+ public:
+  TableCheck(Database& database, std::string table, const Knowledge& knowledge, Findings& findings)
+      : database_(database), table_(std::move(table)), knowledge_(knowledge), findings_(findings) {}
+
+  /// All steps of the table, those of one entity after each other.
+  void Pass(const std::string& id, Step step) {
+    if (id != id_) End();
+    id_ = id;
+    steps_.push_back(std::move(step));
   }
-  for (const auto& [id, state] : states) add(id, "is in the audit trail but not in the record; restore a backup");
+  void End() {
+    if (!steps_.empty()) Compare(StateOf(std::move(steps_), knowledge_));
+    steps_.clear();
+  }
+
+ private:
+  void Error(const std::string& what) { findings_.Error(table_ + " " + id_, what); }
+  void Compare(const TrailState& state) {
+    const json row = RowAsJson(database_, table_, id_);
+    if (row.is_null()) {
+      Error("is in the audit trail but not in the record; restore a backup");
+    } else if (state.row.is_null()) {
+      Error("has no audit row for its making; restore a backup");
+    } else if (const std::string differences = Differences(row, state.row); !differences.empty()) {
+      Error("was changed past the audit trail (" + differences + "); see 'striae history " + id_ +
+            "', restore a backup");
+    }
+  }
+
+  Database& database_;
+  std::string table_;
+  const Knowledge& knowledge_;
+  Findings& findings_;
+  std::string id_;
+  std::vector<Step> steps_;
+};
+
+void CheckTable(Database& database, const std::string& table, const Knowledge& knowledge, Findings& findings) {
+  TableCheck check(database, table, knowledge, findings);
+  database.Each(
+      std::string(kSteps) +
+          ", entity_id FROM audit WHERE entity = ? AND action IN ('create', 'change') ORDER BY entity_id",
+      [&](const RowView& row) { check.Pass(row.Text(6), ReadStep(row)); }, table);
+  check.End();
+  std::string without = "SELECT id FROM " + table;
+  without += " t WHERE NOT EXISTS (SELECT 1 FROM audit a WHERE a.entity = ? AND a.entity_id = t.id)";
+  database.Each(
+      without,
+      [&](const RowView& row) {
+        findings.Error(table + " " + row.Text(0),
+                       "has no audit row: it was written past the record, or the trail was cut; restore a backup");
+      },
+      table);
 }
 
 }  // namespace
 
-void CheckDatabase(Database& database, CheckReport& report) {
-  for (const std::string& line :
-       database.Rows("PRAGMA integrity_check", [](const RowView& row) { return row.Text(0); })) {
-    if (line != "ok") Add(report, Severity::kError, "study.db", "SQLite finds: " + line + "; restore a backup");
-  }
-  for (const std::string& line : database.Rows("PRAGMA foreign_key_check", [](const RowView& row) {
-         return "a row of " + row.Text(0) + " points to a " + row.Text(2) + " that is not there";
-       })) {
-    Add(report, Severity::kError, "study.db", line + "; restore a backup");
-  }
-}
-
-void CheckChain(Database& database, const std::optional<AuditHead>& expected, CheckReport& report) {
+void CheckChain(Database& database, const CheckOptions& options, Findings& findings) {
   const std::string own =
       database.One("SELECT origin FROM this_copy", [](const RowView& row) { return row.Text(0); }).value_or("");
+  const Noted noted(options.expected, own);
   std::map<std::string, ChainWalk> walks;
-  bool expected_seen = !expected;
+  const auto all = static_cast<std::size_t>(database.Count("SELECT count(*) FROM audit"));
+  constexpr std::int64_t kEvery = 1000;
   // Walked row by row: the trail grows with the study, memory does not.
   const auto visit = [&](const RowView& view) {
-    const AuditRow row = ReadAuditRow(view);
-    walks[row.origin].Step(row, report);
-    ++report.audit_rows;
-    if (expected && row.origin == own && row.sequence == expected->sequence) {
-      expected_seen = true;
-      if (row.hash != expected->hash) {
-        Add(report, Severity::kError, NameOf(row),
-            "is not the row whose hash was noted earlier; the trail was rewritten");
-      }
+    if (options.progress && ++findings.report().audit_rows % kEvery == 0) {
+      options.progress(static_cast<std::size_t>(findings.report().audit_rows), all, "audit rows");
+    } else if (!options.progress) {
+      ++findings.report().audit_rows;
     }
-    return true;
+    const auto row = Guarded([&] { return ReadAuditRow(view); });
+    if (row) {
+      walks[row->origin].Step(*row, findings);
+      noted.Pass(*row, findings);
+      return;
+    }
+    ChainWalk& walk = walks[view.Text(0)];
+    walk.sequence = view.Integer(1);
+    walk.unreadable = true;
+    findings.Error("audit row " + std::to_string(walk.sequence),
+                   "was altered: it cannot be read (" + row.error().message + "); restore a backup");
   };
   database.Each("SELECT " + std::string(kAuditColumns) + " FROM audit ORDER BY origin, sequence", visit);
-  report.head = {walks[own].sequence, walks[own].hash};
-  if (!expected_seen) {
-    Add(report, Severity::kError, "audit trail",
-        "was cut at its end: it has " + std::to_string(walks[own].sequence) + " rows, but row " +
-            std::to_string(expected->sequence) + " was noted earlier; restore a backup");
-  }
+  for (const auto& [origin, walk] : walks) findings.report().heads.push_back({walk.sequence, walk.hash, origin});
+  findings.report().head = {walks[own].sequence, walks[own].hash, ""};
+  noted.End(walks, findings);
 }
 
-void CheckRowsAgainstTrail(Database& database, CheckReport& report) {
-  for (const char* table : kAudited) CheckTable(database, table, report);
-}
-
-void CheckObjects(Database& database, const ObjectStore& objects, CheckReport& report) {
-  std::set<Sha256> known;
-  for (const Sha256& sha256 :
-       database.Rows("SELECT id FROM object ORDER BY id", [](const RowView& row) { return row.Hash(0); })) {
-    known.insert(sha256);
-    ++report.objects;
-    if (const Status sound = objects.Verify(sha256); !sound) {
-      Add(report, Severity::kError, "object " + sha256.ToString(), sound.error().message);
+void CheckRowsAgainstTrail(Database& database, const Progress& progress, Findings& findings) {
+  const Knowledge knowledge(database);
+  const auto tables = AuditedTables(database);
+  std::size_t done = 0;
+  for (const std::string& table : tables) {
+    // One damaged table does not hide the others.
+    if (const auto checked = Guarded([&] { CheckTable(database, table, knowledge, findings); }); !checked) {
+      findings.Error("table " + table, "cannot be read whole: " + checked.error().message);
     }
+    if (progress) progress(++done, tables.size(), "tables");
   }
-  const auto listing = Unwrap(objects.List());
-  for (const Sha256& sha256 : listing.objects) {
-    if (known.contains(sha256)) continue;
-    Add(report, Severity::kWarning, "object " + sha256.ToString(),
-        "is in no row: left by a program that was stopped before it had finished; importing the file again puts it "
-        "right");
-  }
-  for (const auto& path : listing.strangers) {
-    Add(report, Severity::kWarning, path.filename().string(),
-        "in objects/ is not an object: an unfinished copy, or put there by hand; it can be removed");
-  }
+  database.Each(
+      "SELECT entity, min(sequence) FROM audit WHERE action IN ('create', 'change') GROUP BY entity",
+      [&](const RowView& row) {
+        if (std::find(tables.begin(), tables.end(), row.Text(0)) != tables.end()) return;
+        findings.Error("table " + row.Text(0), "is not in the record, but audit row " +
+                                                   std::to_string(row.Integer(1)) +
+                                                   " speaks of it; restore a backup");
+      });
 }
 
 }  // namespace striae::store::detail
