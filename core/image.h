@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
-#include <vector>
+
+#include "core/buffer.h"
 
 namespace striae {
 
@@ -18,6 +19,14 @@ class Image {
  public:
   Image() = default;
   Image(int width, int height, T fill = T{}) : width_(width), height_(height), pixels_(Count(width, height), fill) {}
+  /// Pixels that the caller writes before anything reads them.
+  static Image Unset(int width, int height) {
+    Image image;
+    image.width_ = width;
+    image.height_ = height;
+    image.pixels_ = Buffer<T>(Count(width, height));
+    return image;
+  }
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -29,8 +38,8 @@ class Image {
   const T& operator()(int col, int row) const { return pixels_[Index(col, row)]; }
   T* Row(int row) { return pixels_.data() + Index(0, row); }
   const T* Row(int row) const { return pixels_.data() + Index(0, row); }
-  [[nodiscard]] std::vector<T>& pixels() { return pixels_; }
-  [[nodiscard]] const std::vector<T>& pixels() const { return pixels_; }
+  [[nodiscard]] Buffer<T>& pixels() { return pixels_; }
+  [[nodiscard]] const Buffer<T>& pixels() const { return pixels_; }
 
  private:
   static std::size_t Count(int width, int height) {
@@ -42,7 +51,7 @@ class Image {
   }
 
   int width_ = 0, height_ = 0;
-  std::vector<T> pixels_;
+  Buffer<T> pixels_;
 };
 
 using ImageF = Image<float>;

@@ -8,18 +8,21 @@
 
 #include <Eigen/Core>
 
+#include "core/buffer.h"
 #include "core/image.h"
 
 namespace striae {
 
 struct Surface {
   int sensor_width_px = 0, sensor_height_px = 0;
-  std::vector<Eigen::Vector3f> point_in_camera;     ///< mm; row-major order of (row, col)
-  std::vector<Rgb8> colour;                         ///< one per point
-  std::vector<float> quality;                       ///< modulation 0..1, one per point
-  std::vector<std::uint16_t> col, row;              ///< sensor pixel, one per point
-  std::vector<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the camera (normals towards it)
-  std::vector<std::string> comments;                ///< provenance lines, printable ASCII
+  Buffer<Eigen::Vector3f> point_in_camera;  ///< mm; row-major order of (row, col)
+  Buffer<Rgb8> colour;                      ///< one per point
+  Buffer<float> quality;                    ///< modulation 0..1, one per point
+  /// Standard uncertainty of the point along its ray, mm of depth; one per point, or empty where it is not known.
+  Buffer<float> uncertainty_mm;
+  Buffer<std::uint16_t> col, row;              ///< sensor pixel, one per point
+  Buffer<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the camera (normals towards it)
+  std::vector<std::string> comments;           ///< provenance lines, printable ASCII
 
   [[nodiscard]] std::size_t size() const { return point_in_camera.size(); }
   [[nodiscard]] bool HasGrid() const { return col.size() == size() && row.size() == size() && sensor_width_px > 0; }
