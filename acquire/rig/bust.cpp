@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "acquire/rig/detail/bust_parts.h"
+#include "acquire/rig/detail/dress.h"
 #include "acquire/rig/detail/texture.h"
 
 namespace striae::rig {
@@ -25,9 +26,12 @@ void BendNeck(const Eigen::Matrix3d& head_rotation, TriangleMesh& neck) {
 TriangleMesh MakeBust(const BustOptions& options) {
   TriangleMesh head = detail::MakeHead(options.seed);
   TriangleMesh neck = detail::MakeNeck(options.seed);
+  Append(detail::GrowHair(options.hair, options.seed, head), head);
   Move(options.head_rotation, Eigen::Vector3d::Zero(), head);
   BendNeck(options.head_rotation, neck);
   TriangleMesh bust = detail::MakeTorso(options.seed);
+  detail::PutOnShirt(options.shirt, options.seed, bust);
+  if (options.arm) Append(detail::MakeArm(options.seed), bust);
   Append(neck, bust);
   Append(head, bust);
   const Eigen::Vector3d pivot(0, options.pivot_y_mm, options.distance_mm);

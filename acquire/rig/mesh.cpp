@@ -44,11 +44,17 @@ void Append(const TriangleMesh& part, TriangleMesh& mesh) {
   mesh.albedo.insert(mesh.albedo.end(), part.albedo.begin(), part.albedo.end());
   mesh.triangle.reserve(mesh.triangle.size() + part.triangle.size());
   for (const auto& t : part.triangle) mesh.triangle.push_back({t[0] + first, t[1] + first, t[2] + first});
+  mesh.decal.insert(mesh.decal.end(), part.decal.begin(), part.decal.end());
 }
 
 void Move(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation, TriangleMesh& mesh) {
   for (Eigen::Vector3d& v : mesh.vertex) v = rotation * v + translation;
   for (Eigen::Vector3d& n : mesh.normal) n = rotation * n;
+  for (Decal& decal : mesh.decal) {
+    decal.origin = rotation * decal.origin + translation;
+    decal.right = rotation * decal.right;
+    decal.down = rotation * decal.down;
+  }
 }
 
 Eigen::Matrix3d RotationFromPose(double yaw_deg, double pitch_deg, double roll_deg) {

@@ -10,12 +10,23 @@
 
 namespace striae::rig {
 
+/// Something flat painted onto a surface: squares of grey, seen along the normal of a plane that touches it.
+struct Decal {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();                                   ///< its middle, on the surface
+  Eigen::Vector3d right = Eigen::Vector3d::UnitX(), down = Eigen::Vector3d::UnitY();  ///< unit, normal to each other
+  double cell_mm = 1;
+  int columns = 0, rows = 0;  ///< of cells
+  std::vector<float> albedo;  ///< of each cell, linear, row by row from the upper left
+  double reach_mm = 0;        ///< painted is what lies at most so far before or behind the plane
+};
+
 /// Vertices in mm, in the camera frame once the body is placed (x right, y down, z forward).
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<Eigen::Vector3d> normal;  ///< unit, out of the body; used for shading only, the truth is the facets
   std::vector<Eigen::Vector3f> albedo;  ///< linear RGB, 0..1
   std::vector<std::array<std::uint32_t, 3>> triangle;  ///< counter-clockwise seen from outside
+  std::vector<Decal> decal;                            ///< painted over the albedo, the last one on top
 };
 
 /// Joins `columns` x `rows` vertices, stored row by row from index `first`, to triangles; `closed` also joins the last

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "acquire/rig/detail/bands.h"
 #include "acquire/rig/detail/exposure.h"
@@ -85,8 +86,10 @@ Result<Rendering> Render(const TriangleMesh& mesh, const Calibration& calibratio
         if (band.IsEdge(col, row, pixel_rad)) {
           rgb = shader.Edge({col, row});
         } else if (sample.hit) {
-          const detail::Sample& next = shader.AlongRows() ? band.At(col, row + 1) : band.At(col + 1, row);
-          rgb = shader.Smooth(sample, next.ray - sample.ray);
+          Eigen::Vector3d across = band.At(col, row + 1).ray - sample.ray,
+                          along = band.At(col + 1, row).ray - sample.ray;
+          if (!shader.AlongRows()) std::swap(across, along);
+          rgb = shader.Smooth(sample, across, along);
         }
         light(col, row) = {rgb.x(), rgb.y(), rgb.z()};
       }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "acquire/rig/detail/bands.h"
+#include "acquire/rig/detail/random.h"
 
 namespace striae::rig::detail {
 namespace {
@@ -13,31 +14,6 @@ namespace {
 constexpr int kBand = 16;
 constexpr int kCurveSteps = 1 << 14;
 constexpr float kLargest = 1 - 1e-6F;  // below 1, so that it falls into the last step
-
-/// SplitMix64 (Steele, Lea, Flood 2014): every row starts its own sequence, so threads do not matter.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t Next() {
-    std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
-    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
-    return z ^ (z >> 31U);
-  }
-  /// Standard normal to good approximation: the sum of eight 16-bit uniforms, no library function involved.
-  float Normal() {
-    std::uint32_t sum = 0;
-    for (int word = 0; word < 2; ++word) {
-      for (std::uint64_t bits = Next(), i = 0; i < 4; ++i, bits >>= 16U)
-        sum += static_cast<std::uint32_t>(bits & 0xFFFFU);
-    }
-    constexpr float kMean = 8 * 65535.0F / 2, kSd = 53509.4F;  // sqrt(8 (65536^2 - 1) / 12)
-    return (static_cast<float>(sum) - kMean) / kSd;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 std::vector<std::uint8_t> SrgbCurve() {
   std::vector<std::uint8_t> curve(kCurveSteps);

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "acquire/rig/detail/paint.h"
+
 namespace striae::rig::detail {
 namespace {
 
@@ -61,30 +63,50 @@ bool Shader::Lit(const Sample& sample) const {
   return projector_.At(point) > 0.25 * unmasked;  // half of it at the mask's edge, less some vignetting
 }
 
-Eigen::Vector3f Shader::Smooth(const Sample& centre, const Eigen::Vector3d& step) const {
+Eigen::Vector3f Shader::Painted(const Sample& centre, const Plane& plane, const Eigen::Vector3d& across,
+                                const Eigen::Vector3d& along, double direct, const Eigen::Vector3f& skin) const {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const double i : kAcross) {
+    for (const double j : kAlong) {
+      const Eigen::Vector3d ray = centre.ray + i * across + j * along;
+      const Eigen::Vector3d point = plane.offset / plane.normal.dot(ray) * ray;
+      const double passed = direct > 0 ? grating_.At(optics_.OrderAt(point).value_or(-10)) : 0;
+      const auto light = static_cast<float>(direct * (options_.leak + (1 - options_.leak) * passed) + options_.ambient);
+      const auto paint = PaintAt(mesh_, point);
+      sum += light * (paint ? Eigen::Vector3f(Eigen::Vector3f::Constant(*paint)) : skin);
+    }
+  }
+  return sum / static_cast<float>(kAcross.size() * kAlong.size());
+}
+
+Eigen::Vector3f Shader::Smooth(const Sample& centre, const Eigen::Vector3d& across,
+                               const Eigen::Vector3d& along) const {
   const auto& t = mesh_.triangle[centre.where.triangle];
   const double u = centre.where.u, v = centre.where.v, w = 1 - u - v;
-  const Eigen::Vector3f albedo = static_cast<float>(w) * mesh_.albedo[t[0]] +
-                                 static_cast<float>(u) * mesh_.albedo[t[1]] +
-                                 static_cast<float>(v) * mesh_.albedo[t[2]];
+  const Eigen::Vector3f skin = SkinAlbedo(mesh_, centre.where);
   const double cos_field = 1 / centre.ray.norm();
   const double lens = std::pow(cos_field, 4);
-  double light = 0;
+  const Eigen::Vector3d point = centre.depth_mm * centre.ray;
+  const Plane plane = PlaneOf(centre.where.triangle);
+  double direct = 0;  // light that faces the surface, before the grating
   if (centre.sees_light) {
-    const Eigen::Vector3d point = centre.depth_mm * centre.ray;
     Eigen::Vector3d normal = (w * mesh_.normal[t[0]] + u * mesh_.normal[t[1]] + v * mesh_.normal[t[2]]).normalized();
     if (normal.dot(centre.ray) > 0) normal = -normal;
-    const double facing = std::max(0.0, normal.dot((calibration_.projector.center_mm - point).normalized()));
-    const Plane plane = PlaneOf(centre.where.triangle);
-    double passed = 0;
+    direct = projector_.At(point) * std::max(0.0, normal.dot((calibration_.projector.center_mm - point).normalized()));
+  }
+  if (!mesh_.decal.empty() && NearPaint(mesh_, point, 2 * centre.depth_mm * across.norm())) {
+    return static_cast<float>(lens) * Painted(centre, plane, across, along, direct, skin);
+  }
+  double passed = 0;
+  if (direct > 0) {
     for (const double offset : kAcross) {
-      const Eigen::Vector3d ray = centre.ray + offset * step;
+      const Eigen::Vector3d ray = centre.ray + offset * across;
       const auto order = optics_.OrderAt(plane.offset / plane.normal.dot(ray) * ray);
       if (order) passed += grating_.At(*order) / kAcross.size();
     }
-    light = projector_.At(point) * facing * (options_.leak + (1 - options_.leak) * passed);
   }
-  return static_cast<float>((light + options_.ambient) * lens) * albedo;
+  const double light = direct * (options_.leak + (1 - options_.leak) * passed);
+  return static_cast<float>((light + options_.ambient) * lens) * skin;
 }
 
 Eigen::Vector3f Shader::Edge(const Eigen::Vector2d& pixel) const {
@@ -93,7 +115,7 @@ Eigen::Vector3f Shader::Edge(const Eigen::Vector2d& pixel) const {
     for (const double along : kAlong) {
       const Eigen::Vector2d offset = AlongRows() ? Eigen::Vector2d(along, across) : Eigen::Vector2d(across, along);
       const Sample sample = Trace(pixel + offset);
-      if (sample.hit) sum += Smooth(sample, Eigen::Vector3d::Zero());
+      if (sample.hit) sum += Smooth(sample, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     }
   }
   return sum / static_cast<float>(kAcross.size() * kAlong.size());

@@ -24,8 +24,9 @@ class Shader {
 
   [[nodiscard]] Sample Trace(const Eigen::Vector2d& pixel) const;
   /// Linear RGB of a pixel whose surroundings are one smooth facet: the facet's plane stands for all of its area.
-  /// `step` is the change of the ray from this pixel to the next across the stripes.
-  [[nodiscard]] Eigen::Vector3f Smooth(const Sample& centre, const Eigen::Vector3d& step) const;
+  /// `across` and `along` are the changes of the ray from this pixel to the next across and along the stripes.
+  [[nodiscard]] Eigen::Vector3f Smooth(const Sample& centre, const Eigen::Vector3d& across,
+                                       const Eigen::Vector3d& along) const;
   /// Linear RGB of a pixel at an edge: a fixed pattern of traced rays.
   [[nodiscard]] Eigen::Vector3f Edge(const Eigen::Vector2d& pixel) const;
   /// The grating's light reaches the sample, bright stripe or dark.
@@ -38,6 +39,9 @@ class Shader {
     double offset = 0;
   };
   [[nodiscard]] Plane PlaneOf(std::uint32_t triangle) const;
+  /// Mean over the pixel's area of the grating's light, times the painted albedo where something is painted.
+  [[nodiscard]] Eigen::Vector3f Painted(const Sample& centre, const Plane& plane, const Eigen::Vector3d& across,
+                                        const Eigen::Vector3d& along, double direct, const Eigen::Vector3f& skin) const;
 
   const TriangleMesh& mesh_;
   const RayScene& scene_;
