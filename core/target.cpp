@@ -19,7 +19,7 @@ std::uint32_t Crc32(const Uuid& uuid) {
 
 CharucoBoard BoardFor(RigRange range) {
   const std::string dictionary(kBoardDictionary);
-  return range == RigRange::kSmall ? CharucoBoard{7, 5, 36, 28, dictionary} : CharucoBoard{7, 5, 52, 42, dictionary};
+  return range == RigRange::kSmall ? CharucoBoard{7, 5, 36, 27, dictionary} : CharucoBoard{7, 5, 52, 39, dictionary};
 }
 
 std::string SessionCode(const SessionId& session) {

@@ -22,11 +22,13 @@ struct CharucoBoard {
   bool operator==(const CharucoBoard&) const = default;
 };
 
-/// Its markers have 5x5 bits: never taken for a label's, which have 4x4.
+/// Its markers have 5x5 bits, a label's 4x4: none is taken for one of the other at its size.
 inline constexpr std::string_view kBoardDictionary = "DICT_5X5_50";
 
 /// 7 x 5 squares: 252 x 180 mm on A4 landscape (small range), 364 x 260 mm on A3 landscape (large range).
-/// A marker's module is 4 mm (two stripes at 1 m) and 6 mm (wider than the dark half of a stripe at 2 m).
+/// Markers of 27 and 39 mm have modules of 3.9 mm (nearly two stripes at 1 m) and 5.6 mm (wider than the dark half of a
+/// stripe at 2 m). They are three quarters of their squares: wider ones merge with the white square around them in
+/// OpenCV's detector (corners nearer than a twentieth of a marker's perimeter).
 CharucoBoard BoardFor(RigRange range);
 
 /// One ArUco marker of known size with the session's code.
