@@ -1,13 +1,10 @@
 #include "core/ply.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <limits>
-#include <thread>
+#include <cstdio>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include "core/detail/ply_header.h"
 
@@ -18,54 +15,15 @@ using detail::PlyElement;
 using detail::PlyHeader;
 using detail::PlyReader;
 
-static_assert(std::endian::native == std::endian::little, "the codecs below copy little-endian values as they are");
-
-constexpr std::string_view kSensorComment = "striae sensor ";
-constexpr std::size_t kVertexBytes = 3 * 4 + 3 + 4 + 2 * 2;
-constexpr std::size_t kFaceBytes = 1 + 3 * 4;
-
-template <typename T>
-std::uint8_t* Put(std::uint8_t* out, const T& value) {
-  std::memcpy(out, &value, sizeof value);
-  return out + sizeof value;
-}
-
-/// Calls visit(index) for [0, count), the second half on a thread of its own when there are many.
-template <typename Visit>
-void ForEachInTwo(std::size_t count, const Visit& visit) {
-  constexpr std::size_t kFewest = 100'000;
-  const std::size_t middle = count < kFewest ? count : count / 2;
-  std::thread other;
-  if (middle < count) {
-    other = std::thread([&] {
-      for (std::size_t i = middle; i < count; ++i) visit(i);
-    });
-  }
-  for (std::size_t i = 0; i < middle; ++i) visit(i);
-  if (other.joinable()) other.join();
-}
-
-std::string HeaderOf(const Surface& surface) {
-  std::string header = "ply\nformat binary_little_endian 1.0\n";
-  header += "comment " + std::string(kSensorComment) + std::to_string(surface.sensor_width_px) + " " +
-            std::to_string(surface.sensor_height_px) + "\n";
-  header += "comment units mm, camera frame: x right, y down, z forward\n";
-  for (const std::string& comment : surface.comments) header += "comment " + comment + "\n";
-  header += "element vertex " + std::to_string(surface.size()) + "\n";
-  header +=
-      "property float x\nproperty float y\nproperty float z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-      "property float quality\nproperty ushort col\nproperty ushort row\n";
-  header += "element face " + std::to_string(surface.faces.size()) + "\n";
-  return header + "property list uchar uint vertex_indices\nend_header\n";
-}
+using detail::kSensorComment;
 
 /// Where each wanted property of the vertex element stands; -1 where the file has none.
 struct VertexColumns {
   explicit VertexColumns(const PlyElement& element) {
-    constexpr const char* kNames[] = {"x", "y", "z", "red", "green", "blue", "quality", "col", "row"};
+    constexpr const char* kNames[kWanted] = {"x",    "y",       "z",   "red", "green",
+                                             "blue", "quality", "col", "row", "uncertainty"};
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
-      for (int wanted = 0; wanted < 9; ++wanted) {
+      for (int wanted = 0; wanted < kWanted; ++wanted) {
         if (element.properties[i].name == kNames[wanted]) at[wanted] = static_cast<int>(i);
       }
     }
@@ -73,7 +31,8 @@ struct VertexColumns {
   [[nodiscard]] bool Has(int first, int last) const {
     return std::all_of(at + first, at + last + 1, [](int column) { return column >= 0; });
   }
-  int at[9] = {-1, -1, -1, -1, -1, -1, -1, -1, -1};
+  static constexpr int kWanted = 10;
+  int at[kWanted] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
 };
 
 std::uint16_t PixelOf(double value) { return static_cast<std::uint16_t>(std::clamp(value, 0.0, 65535.0)); }
@@ -83,7 +42,8 @@ std::uint8_t ChannelOf(double value) { return static_cast<std::uint8_t>(std::cla
 Status ReadVertices(PlyReader& reader, const PlyElement& element, Surface& surface) {
   const VertexColumns columns(element);
   if (!columns.Has(0, 2)) return Fail(ErrorCode::kBadFile, "the PLY's vertices have no x, y, z");
-  const bool coloured = columns.Has(3, 5), weighted = columns.Has(6, 6), gridded = columns.Has(7, 8);
+  const bool coloured = columns.Has(3, 5), weighted = columns.Has(6, 6), gridded = columns.Has(7, 8),
+             doubted = columns.Has(9, 9);
   std::vector<double> values(element.properties.size());
   for (std::size_t i = 0; i < element.count; ++i) {
     if (!reader.ReadScalars(element, values)) return Fail(ErrorCode::kBadFile, "the PLY ends within its vertices");
@@ -99,6 +59,7 @@ Status ReadVertices(PlyReader& reader, const PlyElement& element, Surface& surfa
       surface.col.push_back(PixelOf(value(7)));
       surface.row.push_back(PixelOf(value(8)));
     }
+    if (doubted) surface.uncertainty_mm.push_back(static_cast<float>(value(9)));
   }
   return {};
 }
@@ -144,28 +105,6 @@ void SettleSensorSize(Surface& surface) {
 
 }  // namespace
 
-std::vector<std::uint8_t> EncodePly(const Surface& surface) {
-  const std::string header = HeaderOf(surface);
-  std::vector<std::uint8_t> bytes(header.size() + surface.size() * kVertexBytes + surface.faces.size() * kFaceBytes);
-  std::uint8_t* const vertices = std::copy(header.begin(), header.end(), bytes.data());
-  const bool gridded = surface.HasGrid();
-  ForEachInTwo(surface.size(), [&](std::size_t i) {
-    std::uint8_t* out = vertices + i * kVertexBytes;
-    const Eigen::Vector3f& p = surface.point_in_camera[i];
-    out = Put(Put(Put(out, p.x()), p.y()), p.z());
-    out = Put(Put(Put(out, surface.colour[i].r), surface.colour[i].g), surface.colour[i].b);
-    out = Put(out, surface.quality[i]);
-    out = Put(out, gridded ? surface.col[i] : std::uint16_t{0});
-    Put(out, gridded ? surface.row[i] : std::uint16_t{0});
-  });
-  std::uint8_t* const faces = vertices + surface.size() * kVertexBytes;
-  ForEachInTwo(surface.faces.size(), [&](std::size_t i) {
-    std::uint8_t* out = Put(faces + i * kFaceBytes, std::uint8_t{3});
-    for (const std::uint32_t corner : surface.faces[i]) out = Put(out, corner);
-  });
-  return bytes;
-}
-
 Result<Surface> DecodePly(std::span<const std::uint8_t> bytes) {
   auto header = detail::ReadPlyHeader(bytes);
   if (!header) return Fail(header.error());
@@ -188,23 +127,6 @@ Result<Surface> DecodePly(std::span<const std::uint8_t> bytes) {
   if (surface.point_in_camera.empty()) return Fail(ErrorCode::kBadFile, "the PLY holds no vertex");
   SettleSensorSize(surface);
   return surface;
-}
-
-std::vector<std::uint8_t> EncodeStl(const Surface& surface, std::string_view header) {
-  constexpr std::size_t kHeaderBytes = 80, kTriangleBytes = 50;
-  std::vector<std::uint8_t> bytes(kHeaderBytes + 4 + surface.faces.size() * kTriangleBytes);
-  // "solid" at the start would make readers take it for the ascii form.
-  const std::string text = (header.starts_with("solid") ? "STL " : "") + std::string(header);
-  std::memcpy(bytes.data(), text.data(), std::min(text.size(), kHeaderBytes - 1));
-  std::uint8_t* out = Put(bytes.data() + kHeaderBytes, static_cast<std::uint32_t>(surface.faces.size()));
-  for (const auto& face : surface.faces) {
-    const Eigen::Vector3f &a = surface.point_in_camera[face[0]], &b = surface.point_in_camera[face[1]],
-                          &c = surface.point_in_camera[face[2]];
-    const Eigen::Vector3f normal = (b - a).cross(c - a).normalized();
-    for (const Eigen::Vector3f* v : {&normal, &a, &b, &c}) out = Put(Put(Put(out, v->x()), v->y()), v->z());
-    out = Put(out, std::uint16_t{0});
-  }
-  return bytes;
 }
 
 }  // namespace striae

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/ply.h"
+#include "core/stl.h"
 #include "dicom/body_site.h"
 #include "dicom/detail/dataset.h"
 #include "dicom/detail/encode.h"

@@ -19,15 +19,15 @@ tl::unexpected<Error> WriteFailed(const fs::path& path, int reason) {
                                   "); check the folder, its permissions and the free space");
 }
 
-/// errno of the failure, 0 when every byte is on the disk.
-int WriteAndSync(int file, std::span<const std::uint8_t> bytes) {
+/// errno of the failure, 0 when the system has every byte.
+int WriteAll(int file, std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return errno == 0 ? EIO : errno;
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
-  return ::fsync(file) == 0 ? 0 : errno;
+  return 0;
 }
 
 }  // namespace
@@ -53,12 +53,20 @@ Result<std::string> ReadText(const fs::path& path) {
   return std::string(bytes->begin(), bytes->end());
 }
 
-Status WriteFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
+Status WriteFile(const fs::path& path, const std::function<bool(const ByteSink&)>& produce, Kept kept) {
+  std::error_code code;
+  if (fs::is_directory(path, code)) return WriteFailed(path, EISDIR);
   std::string temporary = path.string() + ".part-XXXXXX";
   const int file = ::mkstemp(temporary.data());
   if (file < 0) return WriteFailed(path, errno);
   ::fchmod(file, 0644);
-  int reason = WriteAndSync(file, bytes);
+  int reason = 0;
+  const bool whole = produce([&](std::span<const std::uint8_t> bytes) {
+    reason = WriteAll(file, bytes);
+    return reason == 0;
+  });
+  if (!whole && reason == 0) reason = EIO;
+  if (reason == 0 && kept == Kept::kDisk && ::fsync(file) != 0) reason = errno;
   if (::close(file) != 0 && reason == 0) reason = errno;
   if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
   if (reason != 0) {
@@ -66,6 +74,11 @@ Status WriteFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
     return WriteFailed(path, reason);
   }
   return {};
+}
+
+Status WriteFile(const fs::path& path, std::span<const std::uint8_t> bytes, Kept kept) {
+  return WriteFile(
+      path, [bytes](const ByteSink& sink) { return sink(bytes); }, kept);
 }
 
 Status WriteText(const fs::path& path, std::string_view text) {

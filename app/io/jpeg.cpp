@@ -72,7 +72,7 @@ bool ReadHeader(jpeg_decompress_struct& info, JpegErrors& errors, std::span<cons
 
 /// Turns rows into luminance as they come, on a thread of its own: decoding itself cannot be shared between threads.
 void FollowWithLuminance(const ImageRgb& rgb, const Progress& rows, ImageF& luminance) {
-  luminance = ImageF(rgb.width(), rgb.height());  // its memory is touched here, beside the decoding
+  luminance = ImageF::Unset(rgb.width(), rgb.height());
   constexpr float kScale = 1.0F / 255;
   int done = 0;
   while (done < rgb.height()) {
@@ -104,7 +104,7 @@ Result<Photograph> DecodeJpeg(std::span<const std::uint8_t> bytes) {
     return Bad("far too few bytes for its size");
   }
   if (good) {
-    photograph.colour = ImageRgb(static_cast<int>(info.image_width), static_cast<int>(info.image_height));
+    photograph.colour = ImageRgb::Unset(static_cast<int>(info.image_width), static_cast<int>(info.image_height));
     Progress rows{0};
     std::thread follower([&] { FollowWithLuminance(photograph.colour, rows, photograph.luminance); });
     good = DecodeRows(info, errors, photograph.colour, rows);

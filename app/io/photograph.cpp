@@ -24,7 +24,7 @@ template <typename T>
 Photograph FromMat(const cv::Mat& mat) {
   constexpr bool kDeep = sizeof(T) == 2;
   constexpr float kScale = kDeep ? 1.0F / 65535 : 1.0F / 255;
-  Photograph photograph{ImageF(mat.cols, mat.rows), ImageRgb(mat.cols, mat.rows), kSaturated8};
+  Photograph photograph{ImageF::Unset(mat.cols, mat.rows), ImageRgb::Unset(mat.cols, mat.rows), kSaturated8};
   // 65535 = 257 * 255: rounded to the nearest, never a tie.
   const auto byte = [](T value) -> std::uint8_t {
     return kDeep ? static_cast<std::uint8_t>((value + 128U) / 257U) : static_cast<std::uint8_t>(value);

@@ -113,7 +113,7 @@ Photograph FromSensor(const LibRaw& raw) {
   constexpr float kFull = 65535, kScale = 1 / kFull;
   constexpr int kNearlyFull = 65400;  // the white level's own noise
   const int width = raw.imgdata.sizes.iwidth, height = raw.imgdata.sizes.iheight;
-  Photograph out{ImageF(width, height), ImageRgb(width, height), 1.0F, true};
+  Photograph out{ImageF::Unset(width, height), ImageRgb::Unset(width, height), 1.0F, true};
   const auto& to_srgb = raw.imgdata.color.rgb_cam;
   for (std::size_t i = 0; i < out.luminance.size(); ++i) {
     const std::uint16_t* p = raw.imgdata.image[i];

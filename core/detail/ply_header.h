@@ -4,11 +4,15 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
 
 namespace striae::detail {
+
+/// The comment line that keeps the sensor's size begins so.
+inline constexpr std::string_view kSensorComment = "striae sensor ";
 
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 

@@ -85,16 +85,59 @@ TEST(Ply, RefusesWhatCannotBe) {
   }
 }
 
-TEST(Stl, HoldsEveryTriangleWithItsNormalTowardsTheCamera) {
-  const auto bytes = EncodeStl(Patch(), "solid but binary");
-  ASSERT_EQ(bytes.size(), 84U + 2 * 50);
-  EXPECT_NE(std::string(bytes.begin(), bytes.begin() + 5), "solid");
-  std::uint32_t count = 0;
-  float normal_z = 0;
-  std::memcpy(&count, &bytes[80], 4);
-  std::memcpy(&normal_z, &bytes[84 + 8], 4);
-  EXPECT_EQ(count, 2U);
-  EXPECT_EQ(normal_z, -1);  // the camera looks along +z
+TEST(Ply, KeepsTheUncertaintyOfEachPoint) {
+  Surface patch = Patch();
+  patch.uncertainty_mm.assign({0.1F, 0.2F, 0.3F, 0.4F});
+  const auto back = DecodePly(EncodePly(patch));
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->uncertainty_mm, patch.uncertainty_mm);
+  EXPECT_TRUE(DecodePly(EncodePly(Patch()))->uncertainty_mm.empty());
+}
+
+/// More points and faces than two pieces hold, so that both threads work.
+Surface LargeSheet() {
+  Surface sheet;
+  sheet.sensor_width_px = 500;
+  sheet.sensor_height_px = 400;
+  for (std::uint32_t i = 0; i < 200'000; ++i) {
+    const auto col = static_cast<std::uint16_t>(i % 500), row = static_cast<std::uint16_t>(i / 500);
+    sheet.point_in_camera.emplace_back(col, row, 1000.0F + 0.001F * static_cast<float>(i));
+    sheet.colour.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8), 7});
+    sheet.quality.push_back(1 / (1 + static_cast<float>(i)));
+    sheet.col.push_back(col);
+    sheet.row.push_back(row);
+    if (i >= 501) sheet.faces.push_back({i, i - 1, i - 500});
+  }
+  return sheet;
+}
+
+TEST(Ply, InPiecesIsTheSameFile) {
+  const Surface sheet = LargeSheet();
+  std::vector<std::uint8_t> joined;
+  std::size_t pieces = 0, largest = 0;
+  EXPECT_TRUE(EncodePly(sheet, [&](std::span<const std::uint8_t> piece) {
+    joined.insert(joined.end(), piece.begin(), piece.end());
+    ++pieces;
+    largest = std::max(largest, piece.size());
+    return true;
+  }));
+  EXPECT_GT(pieces, 6U);
+  EXPECT_LT(largest, joined.size() / 3);  // never the file as a whole
+  EXPECT_EQ(joined, EncodePly(sheet));
+  const auto back = DecodePly(joined);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->point_in_camera, sheet.point_in_camera);
+  EXPECT_EQ(back->quality, sheet.quality);
+  EXPECT_EQ(back->faces, sheet.faces);
+}
+
+TEST(Ply, StopsWhenThePiecesCannotBeTaken) {
+  const Surface sheet = LargeSheet();
+  for (int last = 0; last < 5; ++last) {
+    int taken = 0;
+    EXPECT_FALSE(EncodePly(sheet, [&](std::span<const std::uint8_t>) { return taken++ < last; }));
+    EXPECT_EQ(taken, last + 1);
+  }
 }
 
 }  // namespace

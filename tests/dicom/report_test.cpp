@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/ply.h"
+#include "core/stl.h"
 #include "dicom/body_site.h"
 #include "dicom/check.h"
 #include "dicom/measurement_report.h"
