@@ -2,240 +2,134 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <string>
+#include <utility>
 
-#include "core/optics.h"
+#include "reconstruct/detail/order_bridge.h"
+#include "reconstruct/detail/order_evidence.h"
 
 namespace striae::reconstruct {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr int kEdgeRegions = 8;           ///< only the largest regions are asked for an edge
-constexpr double kLargestScatter = 0.13;  ///< stripes; OPTICS measured 0.02 to 0.13 on true edges
-constexpr double kLeastShare = 0.2;
-constexpr int kFewestLines = 40;
-constexpr double kLargestRemainder = 0.25;
-constexpr double kLeastMargin = 0.4;  ///< below it a region without an anchor of its own is left out
+constexpr int kMostAnchored = 64;          ///< regions that are asked for evidence of their own
+constexpr double kLeastMargin = 0.4;       ///< below it a region without an anchor of its own is left out
+constexpr double kNoteworthyNecks = 0.03;  ///< share of a region behind necks
 
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Lines across the stripes of a PhaseResult: (line, position) is (col, row) or (row, col).
-class Lines {
+/// The regions' orders while they are being settled.
+class Resolver {
  public:
-  explicit Lines(const PhaseResult& phase)
-      : phase_(phase), horizontal_(phase.direction == StripeDirection::kHorizontal) {}
-  [[nodiscard]] int count() const { return horizontal_ ? phase_.mask.width() : phase_.mask.height(); }
-  [[nodiscard]] int length() const { return horizontal_ ? phase_.mask.height() : phase_.mask.width(); }
-  template <typename T>
-  [[nodiscard]] T At(const Image<T>& image, int line, int position) const {
-    return horizontal_ ? image(line, position) : image(position, line);
+  Resolver(const PhaseResult& phase, const Calibration& calibration, double distance_mm)
+      : scene_{phase, calibration, StripeOptics(calibration)},
+        distance_mm_(distance_mm),
+        count_(phase.unwrapped.regions),
+        asked_(std::min(count_, kMostAnchored)),
+        orders_(static_cast<std::size_t>(count_)),
+        settled_(static_cast<std::size_t>(count_), false),
+        depth_(scene_) {
+    for (const int region : phase.unwrapped.region.pixels()) {
+      if (region >= 0) ++orders_[static_cast<std::size_t>(region)].points;
+    }
+    samples_ = detail::SampleRegions(scene_, asked_);
   }
+
+  /// Grating edges and label: each region by itself.
+  void Anchor(const std::optional<TargetSighting>& target) {
+    const auto edges = FindGratingEdges(scene_.phase, asked_);
+    for (int r = 0; r < asked_; ++r) {
+      const auto i = static_cast<std::size_t>(r);
+      auto own = detail::Agreed(detail::FromEdges(scene_, samples_[i], edges[i]),
+                                target ? detail::FromTarget(scene_, r, *target) : std::nullopt);
+      if (own) Settle(r, *std::move(own));
+    }
+  }
+
+  /// Along bridges of good pixels from what is settled, the widest first, until nothing more is reached.
+  void CrossBridges() {
+    auto bridges = detail::FindBridges(scene_.phase, asked_);
+    std::stable_sort(bridges.begin(), bridges.end(), [](const auto& a, const auto& b) { return a.margin > b.margin; });
+    for (bool any = true; any;) {
+      any = false;
+      for (const detail::Bridge& bridge : bridges) any = Cross(bridge) || any;
+    }
+  }
+
+  /// What has no anchor, always with a warning: the largest region from the distance when nothing is settled, the
+  /// others beside what is.
+  void Continue() {
+    for (int r = 0; r < count_; ++r) {
+      if (settled_[static_cast<std::size_t>(r)]) continue;
+      std::optional<RegionOrder> found;
+      if (r > 0) found = depth_.Continued(r);
+      if (!found && r < asked_)
+        found = detail::FromDistance(scene_, samples_[static_cast<std::size_t>(r)], distance_mm_);
+      if (r > 0 && (!found || found->margin < kLeastMargin)) {
+        found = RegionOrder{};
+        found->warning = "nothing fixes this region's whole stripe number; it is left out of the surface";
+      }
+      Settle(r, *std::move(found));
+    }
+  }
+
+  /// Large regions whose parts unwrapping may have joined across a step.
+  void DoubtNecks() {
+    const std::size_t least = scene_.phase.mask.size() / 500;
+    for (int r = 0; r < asked_; ++r) {
+      RegionOrder& order = orders_[static_cast<std::size_t>(r)];
+      if (order.points < least || !order.warning.empty()) continue;
+      const double share = detail::ShareBehindNecks(scene_.phase, r);
+      if (share < kNoteworthyNecks) continue;
+      order.warning =
+          std::to_string(std::lround(100 * share)) +
+          " % of it hang on the rest by narrow necks only and may be off by whole stripes; look for steps in "
+          "depth that should not be there";
+    }
+  }
+
+  std::vector<RegionOrder> Take() { return std::move(orders_); }
 
  private:
-  const PhaseResult& phase_;
-  bool horizontal_;
+  void Settle(int region, RegionOrder found) {
+    const auto i = static_cast<std::size_t>(region);
+    found.points = orders_[i].points;
+    orders_[i] = std::move(found);
+    settled_[i] = true;
+    if (orders_[i].source != OrderSource::kNone) depth_.Add(region, orders_[i].offset);
+  }
+
+  bool Cross(const detail::Bridge& bridge) {
+    const auto from = static_cast<std::size_t>(bridge.from), to = static_cast<std::size_t>(bridge.to);
+    if (settled_[from] == settled_[to]) {
+      if (settled_[from] && orders_[from].offset + bridge.step != orders_[to].offset) Doubt(from, to);
+      return false;
+    }
+    const bool forward = settled_[from];
+    const RegionOrder& known = orders_[forward ? from : to];
+    RegionOrder found;
+    found.source = OrderSource::kBridge;
+    found.offset = known.offset + (forward ? bridge.step : -bridge.step);
+    found.margin = std::min(known.margin, bridge.margin);
+    found.warning = known.warning;
+    Settle(forward ? bridge.to : bridge.from, std::move(found));
+    return true;
+  }
+
+  /// Two anchored regions that good pixels join, and whose whole numbers do not continue each other.
+  void Doubt(std::size_t a, std::size_t b) {
+    for (const std::size_t i : {a, b}) {
+      if (!orders_[i].warning.empty()) continue;
+      orders_[i].margin = 0;
+      orders_[i].warning = "its whole stripe number does not continue that of the region it is joined to";
+    }
+  }
+
+  detail::OrderScene scene_;
+  double distance_mm_;
+  int count_, asked_;
+  std::vector<RegionOrder> orders_;
+  std::vector<bool> settled_;
+  detail::CoarseDepth depth_;
+  std::vector<std::vector<detail::RegionSample>> samples_;
 };
-
-/// Median amplitude over a few periods from the end inwards: the plateau that the stripes fall from.
-double Plateau(const PhaseResult& phase, const Lines& lines, int line, int end, int step) {
-  std::vector<double> values;
-  const int reach = static_cast<int>(4 * phase.carrier_period_px);
-  for (int i = 1; i <= reach; ++i) {
-    const int position = end + step * i;
-    if (position < 0 || position >= lines.length()) break;
-    values.push_back(lines.At(phase.amplitude, line, position));
-  }
-  return values.empty() ? 0 : Median(values);
-}
-
-/// Relative order where the amplitude crosses half of the plateau near the end of a run, walking outwards; nullopt
-/// where the surface does not go on beyond it.
-std::optional<double> EdgeOrder(const PhaseResult& phase, const Lines& lines, int line, int end, int inwards) {
-  const double period = phase.carrier_period_px;
-  const double plateau = Plateau(phase, lines, line, end, inwards);
-  const int start = end + inwards * static_cast<int>(period);
-  if (start < 0 || start >= lines.length() || plateau <= 0) return std::nullopt;
-  const double order_at_start = lines.At(phase.unwrapped.phase, line, start) / kTwoPi;
-  const int deeper = start + inwards * static_cast<int>(2 * period);
-  if (deeper < 0 || deeper >= lines.length()) return std::nullopt;
-  const double slope = (order_at_start - lines.At(phase.unwrapped.phase, line, deeper) / kTwoPi) / (start - deeper);
-  if (std::isnan(order_at_start) || !std::isfinite(slope)) return std::nullopt;
-
-  int crossing = start;
-  const int furthest = start - inwards * static_cast<int>(2.5 * period);
-  while (crossing >= 0 && crossing < lines.length() && crossing != furthest &&
-         lines.At(phase.amplitude, line, crossing) > plateau / 2) {
-    crossing -= inwards;
-  }
-  if (crossing < 0 || crossing >= lines.length() || crossing == furthest) return std::nullopt;
-  // Linear between the two pixels around the crossing.
-  const double outside = lines.At(phase.amplitude, line, crossing);
-  const double inside = lines.At(phase.amplitude, line, crossing + inwards);
-  const double exact = crossing + inwards * (plateau / 2 - outside) / std::max(1e-12, inside - outside);
-
-  // Ambient light must still show the surface there: two periods on, the mean is above the dark of an empty scene.
-  const int beyond = crossing - inwards * static_cast<int>(2 * period);
-  if (beyond < 0 || beyond >= lines.length()) return std::nullopt;
-  const double lit = lines.At(phase.background, line, start), ambient = lines.At(phase.background, line, beyond);
-  if (ambient < 0.02 * lit) return std::nullopt;
-  return order_at_start + slope * (exact - start);
-}
-
-/// Reduces the orders found along one end to an edge, if they are one.
-std::optional<GratingEdge> JudgeEdge(std::vector<double> orders, int region_lines) {
-  if (static_cast<int>(orders.size()) < kFewestLines) return std::nullopt;
-  const double median = Median(orders);
-  // The lines that belong to the edge: the others end at the subject's own border.
-  std::vector<double> near;
-  for (const double order : orders) {
-    if (std::abs(order - median) < 0.5) near.push_back(order);
-  }
-  const double share = static_cast<double>(near.size()) / std::max(1, region_lines);
-  if (static_cast<int>(near.size()) < kFewestLines || share < kLeastShare) return std::nullopt;
-  const double center = Median(near);
-  std::vector<double> deviations;
-  for (const double order : near) deviations.push_back(std::abs(order - center));
-  const double scatter = 1.4826 * Median(deviations);
-  if (scatter > kLargestScatter) return std::nullopt;
-  return GratingEdge{center, scatter, static_cast<int>(near.size()), share};
-}
-
-/// Median over a region's pixels of the order that a depth predicts minus the measured one.
-double PredictedOffset(const PhaseResult& phase, const Calibration& calibration, const StripeOptics& optics, int region,
-                       double distance_mm) {
-  constexpr int kStep = 7;
-  std::vector<double> offsets;
-  for (int row = 0; row < phase.mask.height(); row += kStep) {
-    for (int col = 0; col < phase.mask.width(); col += kStep) {
-      if (phase.unwrapped.region(col, row) != region) continue;
-      const auto order =
-          optics.OrderAt(distance_mm * RayOf(calibration.camera, {static_cast<double>(col), static_cast<double>(row)}));
-      if (order) offsets.push_back(*order - phase.unwrapped.phase(col, row) / kTwoPi);
-    }
-  }
-  return offsets.empty() ? std::nan("") : Median(offsets);
-}
-
-std::optional<RegionOrder> FromEdges(const RegionEdges& edges, std::optional<int> stripes) {
-  if (!stripes) return std::nullopt;
-  std::optional<double> low, high;
-  if (edges.low) low = -0.5 - edges.low->order;
-  if (edges.high) high = *stripes - 0.5 - edges.high->order;
-  if (!low && !high) return std::nullopt;
-  RegionOrder found;
-  found.source = OrderSource::kGratingEdge;
-  const double offset = low && high ? (*low + *high) / 2 : (low ? *low : *high);
-  found.offset = static_cast<int>(std::lround(offset));
-  const double remainder = std::abs(offset - found.offset);
-  found.margin = 1 - 2 * remainder;
-  if (low && high && std::lround(*low) != std::lround(*high)) return std::nullopt;
-  if (remainder > kLargestRemainder) return std::nullopt;
-  return found;
-}
-
-/// The distance decides where only one whole number leaves the region's middle within the working range, or where one
-/// is much nearer to the expected distance than the next.
-RegionOrder FromDistance(const PhaseResult& phase, const Calibration& calibration, const StripeOptics& optics,
-                         int region, double distance_mm) {
-  const double expected = PredictedOffset(phase, calibration, optics, region, distance_mm);
-  const double at_near = PredictedOffset(phase, calibration, optics, region, calibration.near_mm);
-  const double at_far = PredictedOffset(phase, calibration, optics, region, calibration.far_mm);
-  RegionOrder found;
-  if (!std::isfinite(expected)) {
-    found.warning = "nothing fixes this region's whole stripe number; it is not measured";
-    return found;
-  }
-  found.source = OrderSource::kDistance;
-  found.offset = static_cast<int>(std::lround(expected));
-  found.margin = 1 - 2 * std::abs(expected - found.offset);
-  const double candidates = std::abs(at_far - at_near);
-  if (candidates > 1 && std::isfinite(candidates)) {
-    found.margin /= candidates;
-    found.warning =
-        "the stripe order rests on the expected distance of " + std::to_string(std::lround(distance_mm)) +
-        " mm alone, and other whole numbers fit the working range too; let the grating's edge fall on the subject, or "
-        "give --distance-mm";
-  }
-  return found;
-}
-
-/// Depth of the regions whose order is settled, on a coarse grid of the sensor.
-class CoarseDepth {
- public:
-  static constexpr int kStep = 16;
-  CoarseDepth(const PhaseResult& phase, const Calibration& calibration, const StripeOptics& optics)
-      : phase_(phase),
-        calibration_(calibration),
-        optics_(optics),
-        depth_(phase.mask.width() / kStep + 1, phase.mask.height() / kStep + 1, 0.0F) {}
-
-  void Add(int region, int offset) {
-    ForEachCell(region, [&](int col, int row, const Eigen::Vector3d& ray, double order) {
-      if (const auto z = optics_.DepthAt(ray, order + offset)) depth_(col, row) = static_cast<float>(*z);
-    });
-  }
-
-  /// Orders that a region would have if it continued the depth of what is settled around it, minus its own.
-  [[nodiscard]] std::vector<double> OffsetsBeside(int region) const {
-    std::vector<double> offsets;
-    ForEachCell(region, [&](int col, int row, const Eigen::Vector3d& ray, double order) {
-      const double around = MeanAround(col, row);
-      if (around <= 0) return;
-      if (const auto expected = optics_.OrderAt(around * ray)) offsets.push_back(*expected - order);
-    });
-    return offsets;
-  }
-
- private:
-  template <typename Visit>
-  void ForEachCell(int region, const Visit& visit) const {
-    for (int row = 0; row < depth_.height(); ++row) {
-      for (int col = 0; col < depth_.width(); ++col) {
-        const int x = col * kStep, y = row * kStep;
-        if (!phase_.mask.Contains(x, y) || phase_.unwrapped.region(x, y) != region) continue;
-        const Eigen::Vector3d ray = RayOf(calibration_.camera, {static_cast<double>(x), static_cast<double>(y)});
-        visit(col, row, ray, phase_.unwrapped.phase(x, y) / kTwoPi);
-      }
-    }
-  }
-  [[nodiscard]] double MeanAround(int col, int row) const {
-    constexpr int kReach = 6;  // about 100 px
-    double sum = 0;
-    int count = 0;
-    for (int y = std::max(0, row - kReach); y <= std::min(depth_.height() - 1, row + kReach); ++y) {
-      for (int x = std::max(0, col - kReach); x <= std::min(depth_.width() - 1, col + kReach); ++x) {
-        if (depth_(x, y) <= 0) continue;
-        sum += depth_(x, y);
-        ++count;
-      }
-    }
-    return count == 0 ? 0 : sum / count;
-  }
-
-  const PhaseResult& phase_;
-  const Calibration& calibration_;
-  const StripeOptics& optics_;
-  ImageF depth_;
-};
-
-/// A region beside a settled one takes the whole number that continues its depth best.
-std::optional<RegionOrder> FromNeighbours(const CoarseDepth& depth, int region) {
-  std::vector<double> offsets = depth.OffsetsBeside(region);
-  if (offsets.empty()) return std::nullopt;
-  const double expected = Median(offsets);
-  RegionOrder found;
-  found.source = OrderSource::kBridge;
-  found.offset = static_cast<int>(std::lround(expected));
-  found.margin = 1 - 2 * std::abs(expected - found.offset);
-  found.warning =
-      "its whole stripe number continues the depth of the surface beside it; a step of half a stripe or more between "
-      "them would go unseen";
-  return found;
-}
 
 }  // namespace
 
@@ -255,71 +149,45 @@ std::string_view ToString(OrderSource source) {
   return "none";
 }
 
-std::vector<RegionEdges> FindGratingEdges(const PhaseResult& phase, int regions) {
-  const Lines lines(phase);
-  struct Found {
-    std::vector<double> low, high;
-    int lines = 0;
-  };
-  std::vector<Found> found(static_cast<std::size_t>(regions));
-  for (int line = 0; line < lines.count(); ++line) {
-    // First and last pixel of every region on this line: only the outermost ends can be the grating's.
-    std::vector<std::pair<int, int>> ends(static_cast<std::size_t>(regions), {-1, -1});
-    for (int position = 0; position < lines.length(); ++position) {
-      const int region = lines.At(phase.unwrapped.region, line, position);
-      if (region < 0 || region >= regions) continue;
-      auto& [first, last] = ends[static_cast<std::size_t>(region)];
-      if (first < 0) first = position;
-      last = position;
-    }
-    for (std::size_t r = 0; r < ends.size(); ++r) {
-      if (ends[r].first < 0) continue;
-      ++found[r].lines;
-      if (const auto low = EdgeOrder(phase, lines, line, ends[r].first, +1)) found[r].low.push_back(*low);
-      if (const auto high = EdgeOrder(phase, lines, line, ends[r].second, -1)) found[r].high.push_back(*high);
-    }
-  }
-  std::vector<RegionEdges> edges;
-  for (const Found& f : found) edges.push_back({JudgeEdge(f.low, f.lines), JudgeEdge(f.high, f.lines)});
-  return edges;
+std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibration& calibration, double distance_mm,
+                                      const std::optional<TargetSighting>& target) {
+  Resolver resolver(phase, calibration, distance_mm);
+  resolver.Anchor(target);
+  resolver.CrossBridges();
+  resolver.Continue();
+  resolver.DoubtNecks();
+  return resolver.Take();
 }
 
-std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibration& calibration, double distance_mm) {
-  const StripeOptics optics(calibration);
-  const int count = phase.unwrapped.regions;
-  std::vector<RegionOrder> orders(static_cast<std::size_t>(count));
-  for (const int region : phase.unwrapped.region.pixels()) {
-    if (region >= 0) ++orders[static_cast<std::size_t>(region)].points;
-  }
-  const auto settle = [&](int region, RegionOrder found) {
-    found.points = orders[static_cast<std::size_t>(region)].points;
-    orders[static_cast<std::size_t>(region)] = std::move(found);
-  };
-  const auto edges = FindGratingEdges(phase, std::min(count, kEdgeRegions));
-  std::vector<int> open;
-  CoarseDepth depth(phase, calibration, optics);
-  for (int r = 0; r < count; ++r) {
-    std::optional<RegionOrder> own;
-    if (r < kEdgeRegions) own = FromEdges(edges[static_cast<std::size_t>(r)], calibration.stripes);
-    // The largest region must have an order: the others are then placed beside it.
-    if (!own && r == 0) own = FromDistance(phase, calibration, optics, r, distance_mm);
-    if (!own) {
-      open.push_back(r);
+std::vector<RegionOrder> SummarisedRegions(const std::vector<RegionOrder>& regions) {
+  std::size_t all = 0;
+  for (const RegionOrder& region : regions) all += region.points;
+  std::vector<RegionOrder> listed;
+  std::optional<RegionOrder> placed, none;
+  for (const RegionOrder& region : regions) {
+    if (listed.empty() || region.points * 1000 >= all) {
+      listed.push_back(region);
       continue;
     }
-    settle(r, *own);
-    depth.Add(r, own->offset);
-  }
-  for (const int r : open) {
-    auto beside = FromNeighbours(depth, r);
-    if (!beside) beside = FromDistance(phase, calibration, optics, r, distance_mm);
-    if (beside->margin < kLeastMargin) {
-      beside->source = OrderSource::kNone;
-      beside->warning = "nothing fixes this region's whole stripe number; it is left out of the surface";
+    auto& sum = region.source == OrderSource::kNone ? none : placed;
+    if (!sum) {
+      sum = region;
+      continue;
     }
-    settle(r, *beside);
+    sum->points += region.points;
+    sum->regions += region.regions;
+    if (region.margin < sum->margin || sum->warning.empty()) {
+      const std::size_t points = sum->points;
+      const int count = sum->regions;
+      sum = region;
+      sum->points = points;
+      sum->regions = count;
+    }
   }
-  return orders;
+  for (auto& sum : {placed, none}) {
+    if (sum) listed.push_back(*sum);
+  }
+  return listed;
 }
 
 }  // namespace striae::reconstruct

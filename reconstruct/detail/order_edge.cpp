@@ -1,0 +1,171 @@
+// The grating's own edge: where only the stripes end.
+#include <cmath>
+#include <utility>
+
+#include "reconstruct/detail/order_lines.h"
+#include "reconstruct/order.h"
+
+namespace striae::reconstruct {
+namespace {
+
+using detail::Lines;
+using detail::MedianOf;
+
+constexpr double kLargestScatter = 0.13;  ///< stripes; OPTICS measured 0.02 to 0.13 on true edges
+constexpr double kLeastShare = 0.2;
+constexpr int kFewestLines = 40;            ///< of about a thousand over the picture
+constexpr double kLargestModulation = 0.3;  ///< beyond the edge, against the plateau's
+constexpr double kGhost = 0.004;            ///< of the plateau: amplitude that the window's side lobes leave
+constexpr double kLeastAmbient = 0.006;     ///< background beyond the edge, against the plateau's
+constexpr double kLargestBeyond = 0.03;     ///< share of the region's lines on which it goes on past its edge
+
+/// What one line shows at one end of a region.
+struct LineEnd {
+  double last = 0;   ///< relative order of the outermost pixel
+  double order = 0;  ///< where the amplitude falls to half
+  bool votes = false;
+};
+
+/// Means along a line over positions from `from`, going by `step`.
+struct Mean {
+  double amplitude = 0, background = 0;
+  int count = 0;
+};
+
+class EndReader {
+ public:
+  explicit EndReader(const PhaseResult& phase) : phase_(phase), lines_(phase), period_(phase.carrier_period_px) {}
+
+  /// The end at `end`; `inwards` is +1 at the low orders and -1 at the high ones.
+  [[nodiscard]] LineEnd Read(int line, int end, int inwards) const {
+    LineEnd found;
+    found.last = lines_.Order(line, end);
+    const double plateau = Plateau(line, end, inwards);
+    const int start = end + inwards * static_cast<int>(period_),
+              deeper = start + inwards * static_cast<int>(2 * period_);
+    if (!lines_.Has(deeper) || plateau <= 0) return found;
+    const double at_start = lines_.Order(line, start);
+    const double slope = (at_start - lines_.Order(line, deeper)) / (start - deeper);
+    if (!std::isfinite(at_start) || !std::isfinite(slope)) return found;
+    const auto crossing = Crossing(line, start, inwards, plateau / 2);
+    if (!crossing) return found;
+    found.order = at_start + slope * (*crossing - start);
+    found.votes = OnlyTheStripesEnd(line, static_cast<int>(std::lround(*crossing)), start, inwards, plateau);
+    return found;
+  }
+
+ private:
+  /// Median amplitude over a few periods from the end inwards: what the stripes fall from.
+  [[nodiscard]] double Plateau(int line, int end, int inwards) const {
+    std::vector<double> values;
+    for (int i = 1; i <= static_cast<int>(4 * period_); ++i) {
+      const int position = end + inwards * i;
+      if (!lines_.Has(position)) break;
+      values.push_back(lines_.At(phase_.amplitude, line, position));
+    }
+    return values.empty() ? 0 : MedianOf(values);
+  }
+
+  /// Where the amplitude falls to `half`, walking outwards; linear between the two pixels around it.
+  [[nodiscard]] std::optional<double> Crossing(int line, int start, int inwards, double half) const {
+    const int furthest = start - inwards * static_cast<int>(2.5 * period_);
+    for (int at = start; lines_.Has(at) && at != furthest; at -= inwards) {
+      const double outside = lines_.At(phase_.amplitude, line, at);
+      if (outside > half) continue;
+      const double inside = lines_.At(phase_.amplitude, line, at + inwards);
+      return at + inwards * (half - outside) / std::max(1e-12, inside - outside);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Mean MeanOver(int line, double from, double to) const {
+    Mean mean;
+    for (int at = static_cast<int>(std::ceil(std::min(from, to))); at <= std::max(from, to); ++at) {
+      if (!lines_.Has(at)) continue;
+      mean.amplitude += lines_.At(phase_.amplitude, line, at);
+      mean.background += lines_.At(phase_.background, line, at);
+      ++mean.count;
+    }
+    if (mean.count > 0) mean.amplitude /= mean.count, mean.background /= mean.count;
+    return mean;
+  }
+
+  /// Room light still shows the surface beyond, without stripes there or anywhere further out on the line.
+  [[nodiscard]] bool OnlyTheStripesEnd(int line, int crossing, int start, int inwards, double plateau) const {
+    const Mean out = MeanOver(line, crossing - inwards * 1.75 * period_, crossing - inwards * 3.5 * period_);
+    const Mean in = MeanOver(line, start, start + inwards * 2.0 * period_);
+    if (out.count < period_ / 2 || in.count == 0 || in.background <= 0) return false;
+    const double ambient = out.background / in.background;
+    const double modulation = out.amplitude / std::max(1e-9, out.background) / (in.amplitude / in.background);
+    if (ambient < kLeastAmbient) return false;
+    if (modulation > kLargestModulation && out.amplitude > kGhost * plateau) return false;
+    const int step = std::max(1, static_cast<int>(period_ / 2));
+    for (int at = crossing - inwards * static_cast<int>(3 * period_); lines_.Has(at); at -= inwards * step) {
+      if (lines_.At(phase_.mask, line, at) != 0) return false;
+    }
+    return true;
+  }
+
+  const PhaseResult& phase_;
+  Lines lines_;
+  double period_;
+};
+
+/// Reduces what the lines show at one end to an edge, if it is one. `outwards` is -1 at the low orders.
+std::optional<GratingEdge> JudgeEdge(const std::vector<LineEnd>& ends, int outwards) {
+  std::vector<double> orders;
+  for (const LineEnd& end : ends) {
+    if (end.votes) orders.push_back(end.order);
+  }
+  if (static_cast<int>(orders.size()) < kFewestLines) return std::nullopt;
+  const double median = MedianOf(orders);
+  // The lines that belong to the edge: the others end at the subject's own border.
+  std::vector<double> near;
+  for (const double order : orders) {
+    if (std::abs(order - median) < 0.5) near.push_back(order);
+  }
+  const double share = static_cast<double>(near.size()) / static_cast<double>(ends.size());
+  if (static_cast<int>(near.size()) < kFewestLines || share < kLeastShare) return std::nullopt;
+  const double center = MedianOf(near);
+  std::vector<double> deviations;
+  for (const double order : near) deviations.push_back(std::abs(order - center));
+  const double scatter = 1.4826 * MedianOf(deviations);
+  const auto beyond =
+      std::count_if(ends.begin(), ends.end(), [&](const LineEnd& end) { return outwards * (end.last - center) > 0.5; });
+  if (scatter > kLargestScatter) return std::nullopt;
+  if (static_cast<double>(beyond) > kLargestBeyond * static_cast<double>(ends.size())) return std::nullopt;
+  return GratingEdge{center, scatter, static_cast<int>(near.size()), share};
+}
+
+}  // namespace
+
+std::vector<RegionEdges> FindGratingEdges(const PhaseResult& phase, int regions) {
+  const Lines lines(phase);
+  const int count = (lines.count() + lines.Step() - 1) / lines.Step();
+  // First and last pixel of every region on every line: only the outermost ends can be the grating's.
+  const auto slot = [&](int region, int line) {
+    return static_cast<std::size_t>(region) * static_cast<std::size_t>(count) +
+           static_cast<std::size_t>(line / lines.Step());
+  };
+  std::vector<std::pair<int, int>> spans(static_cast<std::size_t>(regions) * static_cast<std::size_t>(count), {-1, -1});
+  lines.ForEachPixel(regions, [&](int line, int position, int region) {
+    auto& [first, last] = spans[slot(region, line)];
+    if (first < 0) first = position;
+    last = position;
+  });
+  const EndReader reader(phase);
+  std::vector<RegionEdges> edges;
+  for (int region = 0; region < regions; ++region) {
+    std::vector<LineEnd> low, high;
+    for (int line = 0; line < lines.count(); line += lines.Step()) {
+      const auto& [first, last] = spans[slot(region, line)];
+      if (first < 0) continue;
+      low.push_back(reader.Read(line, first, +1));
+      high.push_back(reader.Read(line, last, -1));
+    }
+    edges.push_back({JudgeEdge(low, -1), JudgeEdge(high, +1)});
+  }
+  return edges;
+}
+
+}  // namespace striae::reconstruct
