@@ -19,6 +19,8 @@ struct Study {
   std::string title;
   std::string sponsor;
   std::string coordinating_centre;
+  std::string subject_pattern;  ///< of pseudonyms, e.g. "S###C"; empty: any (docs/record.md)
+  std::string check_digit;      ///< "iso7064", "luhn", "verhoeff"; empty when the pattern has none
 };
 
 struct Site {
@@ -74,6 +76,7 @@ struct Session {
   std::optional<UtcTime> closed_at;
   std::string site_time_zone;
   std::optional<int> camera_clock_offset_s;  ///< camera clock minus UTC, measured
+  std::optional<Date> day;                   ///< at the site, in its zone; none: the UTC day of opened_at
 };
 
 /// What a photograph is for: a wound with its label, the head's neutral pose, another pose, or not said.

@@ -20,12 +20,14 @@ Result<std::vector<AuditRow>> Record::History(std::string_view entity) {
   const auto found = Find(entity);
   if (!found) return Fail(found.error());
   return Guarded([&] {
-    // Consent is kept beside the subject, and measurements beside their report: their rows belong to its history.
-    return impl_->database.Rows("SELECT " + std::string(detail::kAuditColumns) +
-                                    " FROM audit WHERE entity_id = ?1 OR entity_id IN (SELECT id FROM consent WHERE "
-                                    "subject_id = ?1) OR entity_id IN (SELECT id FROM measurement WHERE outcome_id = "
-                                    "?1) ORDER BY origin, sequence",
-                                detail::ReadAuditRow, found->id);
+    // Consent, notes, locks and the like are entries of their own that name what they are about: they belong to its
+    // history, and so does each change from it or to it (a reassignment). What lies below it has a history of its own.
+    return impl_->database.Rows(
+        "SELECT " + std::string(detail::kAuditColumns) +
+            " FROM audit WHERE entity_id = ?1 OR (entity NOT IN ('visit', 'session', 'capture', 'outline', 'derived', "
+            "'outcome', 'calibration') AND (instr(new_value, ?1) OR instr(old_value, ?1))) OR (action = 'change' AND "
+            "(instr(new_value, ?1) OR instr(old_value, ?1))) ORDER BY origin, sequence",
+        detail::ReadAuditRow, found->id);
   });
 }
 

@@ -28,6 +28,10 @@ void RefuseUnlessAllowed(Database& database, const SessionId& id) {
                                           " has no consent in the record; enter it with 'striae consent " +
                                           subject.pseudonym + " --given DATE', or do not photograph");
   }
+  if (database.Count("SELECT count(*) FROM locked_session WHERE id = ?", id) != 0) {
+    Refuse(ErrorCode::kRecordRefused,
+           "session " + id.ToString() + " is locked: nothing is added; 'striae lock list' names the lock");
+  }
   if (session.closed_at) {
     Refuse(ErrorCode::kRecordRefused, "session " + id.ToString() + " was closed at " + session.closed_at->ToString() +
                                           "; open a new one with 'striae session open'");

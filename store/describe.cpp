@@ -1,4 +1,5 @@
 // From any one thing to all that it came from and all that came from it.
+#include "store/detail/about.h"
 #include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/json.h"
@@ -209,7 +210,12 @@ class Describer {
 }  // namespace
 
 Result<json> Record::Describe(std::string_view id) {
-  return Guarded([&] { return Describer(*this, impl_->database).Of(Unwrap(Find(id))); });
+  return Guarded([&] {
+    const Found found = Unwrap(Find(id));
+    json object = Describer(*this, impl_->database).Of(found);
+    object.update(detail::About(*this, found));
+    return object;
+  });
 }
 
 }  // namespace striae::store

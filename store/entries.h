@@ -72,6 +72,8 @@ struct ResultRow {
   CaptureRole role;
   UtcTime measured_at;
   bool superseded = false;
+  bool stale = false;                   ///< its capture was reassigned since; process it again
+  std::optional<std::string> excluded;  ///< the reason, when it does not count
 };
 
 struct ResultFilter {

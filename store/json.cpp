@@ -26,7 +26,9 @@ json ToJson(const Study& study) {
           {"protocol", study.protocol},
           {"title", study.title},
           {"sponsor", study.sponsor},
-          {"coordinating_centre", study.coordinating_centre}};
+          {"coordinating_centre", study.coordinating_centre},
+          {"subject_pattern", study.subject_pattern},
+          {"check_digit", study.check_digit}};
 }
 
 json ToJson(const Site& site) {
@@ -65,7 +67,8 @@ json ToJson(const Session& session) {
                  {"opened_at", session.opened_at.ToString()},
                  {"closed_at", TextOrNull(session.closed_at)},
                  {"site_time_zone", session.site_time_zone},
-                 {"camera_clock_offset_s", nullptr}};
+                 {"camera_clock_offset_s", nullptr},
+                 {"day", (session.day ? *session.day : Date::Of(session.opened_at)).ToString()}};
   if (session.camera_clock_offset_s) object["camera_clock_offset_s"] = *session.camera_clock_offset_s;
   return object;
 }
@@ -128,6 +131,8 @@ json ToJson(const ResultRow& row) {
   object["role"] = row.role.ToString();
   object["measured_at"] = row.measured_at.ToString();
   object["superseded"] = row.superseded;
+  object["stale"] = row.stale;
+  object["excluded"] = row.excluded ? json(*row.excluded) : json();
   object["consent_withdrawn"] = row.subject.consent_withdrawn.has_value();
   return object;
 }
@@ -156,7 +161,11 @@ json ToJson(const CheckReport& report) {
                  {"audit_rows", report.audit_rows},
                  {"objects", report.objects},
                  {"head", {{"sequence", report.head.sequence}, {"hash", report.head.hash.ToString()}}},
+                 {"heads", json::array()},
                  {"findings", json::array()}};
+  for (const AuditHead& head : report.heads) {
+    object["heads"].push_back({{"origin", head.origin}, {"sequence", head.sequence}, {"hash", head.hash.ToString()}});
+  }
   for (const Finding& finding : report.findings) {
     const bool error = finding.severity == Finding::Severity::kError;
     object["findings"].push_back(

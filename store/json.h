@@ -4,8 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/study.h"
+#include "store/annotations.h"
 #include "store/audit.h"
 #include "store/entries.h"
+#include "store/locks.h"
+#include "store/reassign.h"
+#include "store/users.h"
+#include "store/visits.h"
 
 namespace striae::store {
 
@@ -25,5 +30,17 @@ nlohmann::json ToJson(const ResultRow& row);
 nlohmann::json ToJson(const AuditRow& row);
 nlohmann::json ToJson(const CheckReport& report);
 nlohmann::json ToJson(const Overview& overview);
+
+nlohmann::json ToJson(const User& user);  ///< without anything about the passphrase but whether there is one
+nlohmann::json ToJson(const Arm& arm);
+nlohmann::json ToJson(const PlannedVisit& visit);
+nlohmann::json ToJson(const VisitState& state);
+nlohmann::json ToJson(const Treatment& treatment);
+nlohmann::json ToJson(const StudyNote& note);
+nlohmann::json ToJson(const DataQuery& query);
+nlohmann::json ToJson(const Exclusion& exclusion);
+nlohmann::json ToJson(const Lock& lock);
+nlohmann::json ToJson(const Signature& signature);
+nlohmann::json ToJson(const Reassignment& reassignment);
 
 }  // namespace striae::store

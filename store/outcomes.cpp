@@ -50,7 +50,12 @@ Outcome Add(Database& database, Outcome outcome, const Stamp& stamp) {
   detail::GetCapture(database, outcome.capture);
   const auto before = InForce(database, outcome.capture, outcome.analysis);
   // Processing again from the same inputs gives the same outcome: it is there already.
-  if (before && SameContent(*before, outcome)) return *before;
+  // Unless its capture was reassigned since: then it says that the number holds for the new place.
+  const bool stale = before && database.Count(
+                                   "SELECT count(*) FROM stale_mark k JOIN outcome o ON o.capture_id = k.capture_id "
+                                   "WHERE o.id = ? AND k.outcomes >= o.number",
+                                   before->id) != 0;
+  if (before && !stale && SameContent(*before, outcome)) return *before;
   if (before) outcome.supersedes = before->id;
   Columns columns = {{"id", ToValue(outcome.id)},
                      {"capture_id", ToValue(outcome.capture)},
@@ -65,7 +70,7 @@ Outcome Add(Database& database, Outcome outcome, const Stamp& stamp) {
     columns.emplace_back("failure_message", ToValue(outcome.failure->message));
     columns.emplace_back("failure_context", ToValue(detail::Dump(outcome.failure->context)));
   }
-  change.Insert("outcome", columns, before ? "processed again" : "");
+  change.Insert("outcome", columns, stale ? "processed again after a reassignment" : before ? "processed again" : "");
   InsertMeasurements(change, outcome);
   change.Commit();
   return outcome;

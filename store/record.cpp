@@ -5,6 +5,7 @@
 #include "store/detail/change.h"
 #include "store/detail/impl.h"
 #include "store/detail/schema.h"
+#include "store/pseudonym.h"
 
 namespace striae::store {
 namespace {
@@ -14,6 +15,7 @@ using detail::Change;
 using detail::Database;
 using detail::Refuse;
 using detail::ToValue;
+using detail::Value;
 
 constexpr const char* kDatabaseName = "study.db";
 constexpr const char* kNewDatabaseName = ".study.db.new";  // until the first transaction is complete
@@ -53,7 +55,9 @@ void WriteFirstRows(const fs::path& file, const Study& study, const Site& site, 
                           {"protocol", ToValue(study.protocol)},
                           {"title", ToValue(study.title)},
                           {"sponsor", ToValue(study.sponsor)},
-                          {"coordinating_centre", ToValue(study.coordinating_centre)}});
+                          {"coordinating_centre", ToValue(study.coordinating_centre)},
+                          {"subject_pattern", study.subject_pattern.empty() ? Value{} : ToValue(study.subject_pattern)},
+                          {"check_digit", study.check_digit.empty() ? Value{} : ToValue(study.check_digit)}});
   change.Insert("site", {{"id", ToValue(site.id)},
                          {"code", ToValue(site.code)},
                          {"name", ToValue(site.name)},
@@ -71,6 +75,7 @@ Record::~Record() = default;
 
 const fs::path& Record::folder() const { return impl_->folder; }
 const ObjectStore& Record::objects() const { return impl_->objects; }
+void Record::WhenBusy(std::function<void()> tell) { impl_->database.WhenBusy(std::move(tell)); }
 
 Result<Record> Record::Create(const fs::path& folder, const Study& study, const Site& site, const Uuid& origin,
                               const Stamp& stamp) {
@@ -78,6 +83,7 @@ Result<Record> Record::Create(const fs::path& folder, const Study& study, const 
     if (study.protocol.empty() || site.code.empty()) {
       Refuse(ErrorCode::kUsage, "a study needs a protocol number and a site; give --protocol and --site");
     }
+    detail::Unwrap(CheckPattern(study.subject_pattern, study.check_digit));
     RefuseUnlessFree(folder);
     std::error_code code;
     fs::create_directories(folder, code);
@@ -126,9 +132,16 @@ Result<Record> Record::Open(const fs::path& folder, const Stamp& stamp) {
 Result<Study> Record::GetStudy() {
   return detail::Guarded([&] {
     const auto read = [](const detail::RowView& row) {
-      return Study{row.Key<StudyId>(0), row.Text(1), row.Text(2), row.Text(3), row.Text(4)};
+      return Study{row.Key<StudyId>(0),
+                   row.Text(1),
+                   row.Text(2),
+                   row.Text(3),
+                   row.Text(4),
+                   row.OptionalText(5).value_or(""),
+                   row.OptionalText(6).value_or("")};
     };
-    auto study = impl_->database.One("SELECT id, protocol, title, sponsor, coordinating_centre FROM study", read);
+    auto study = impl_->database.One(
+        "SELECT id, protocol, title, sponsor, coordinating_centre, subject_pattern, check_digit FROM study", read);
     if (!study) Refuse(ErrorCode::kRecordDamaged, "study.db names no study; restore a backup");
     return *std::move(study);
   });

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,6 +46,9 @@ class Record {
   [[nodiscard]] const std::filesystem::path& folder() const;
   [[nodiscard]] const ObjectStore& objects() const;
 
+  /// Called once when another program's writing makes this one wait (up to ten seconds in all).
+  void WhenBusy(std::function<void()> tell);
+
   // Study and sites.
   Result<Study> GetStudy();
   Result<std::vector<Site>> Sites();
@@ -77,6 +81,8 @@ class Record {
   Result<Session> OpenSession(Session session, std::string_view visit_name, const VisitId& new_visit,
                               const Stamp& stamp);
   Status CloseSession(const SessionId& id, const Stamp& stamp);
+  /// Lets photographs in again, with a reason.
+  Status ReopenSession(const SessionId& id, const std::string& reason, const Stamp& stamp);
   Result<Session> SessionById(const SessionId& id);
   Result<std::vector<Session>> Sessions(std::optional<SubjectId> subject = std::nullopt);
   Result<Visit> VisitById(const VisitId& id);

@@ -12,7 +12,10 @@ using nlohmann::json;
 constexpr const char* kResults = R"sql(
 SELECT m.id, m.outcome_id, m.content, o.analysis, o.version, s.id, s.pseudonym, s.site_id, s.given, s.withdrawn,
   v.id, v.name, e.id, e.opened_at, c.id, c.role, o.at,
-  EXISTS (SELECT 1 FROM outcome newer WHERE newer.supersedes = o.id)
+  EXISTS (SELECT 1 FROM outcome newer WHERE newer.supersedes = o.id),
+  EXISTS (SELECT 1 FROM stale_mark k WHERE k.capture_id = c.id AND k.outcomes >= o.number),
+  (SELECT group_concat(reason, '; ') FROM exclusion_now x WHERE x.capture_id = c.id
+    AND (x.analysis IS NULL OR (x.analysis = o.analysis AND x.name = m.name)))
 FROM measurement m JOIN outcome o ON o.id = m.outcome_id JOIN capture c ON c.id = o.capture_id
   JOIN session e ON e.id = c.session_id JOIN subject_now s ON s.id = e.subject_id JOIN visit v ON v.id = e.visit_id
 WHERE (?1 IS NULL OR s.id = ?1) AND (?2 IS NULL OR e.id = ?2)
@@ -37,6 +40,8 @@ ResultRow ReadResult(const RowView& row) {
   result.role = detail::Unwrap(CaptureRole::Parse(row.Text(15)));
   result.measured_at = row.Time(16);
   result.superseded = row.Integer(17) != 0;
+  result.stale = row.Integer(18) != 0;
+  result.excluded = row.OptionalText(19);
   return result;
 }
 

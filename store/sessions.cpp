@@ -2,6 +2,7 @@
 #include "store/detail/change.h"
 #include "store/detail/impl.h"
 #include "store/detail/read.h"
+#include "store/detail/require.h"
 
 namespace striae::store {
 
@@ -35,7 +36,8 @@ Result<Session> Record::OpenSession(Session session, std::string_view visit_name
                               {"opened_at", ToValue(session.opened_at)},
                               {"closed_at", ToValue(session.closed_at)},
                               {"site_time_zone", ToValue(session.site_time_zone)},
-                              {"camera_clock_offset_s", ToValue(session.camera_clock_offset_s)}});
+                              {"camera_clock_offset_s", ToValue(session.camera_clock_offset_s)},
+                              {"day", ToValue(session.day)}});
     change.Commit();
     return session;
   });
@@ -49,6 +51,18 @@ Status Record::CloseSession(const SessionId& id, const Stamp& stamp) {
       Refuse(ErrorCode::kRecordRefused, "this session was closed at " + session.closed_at->ToString() + " already");
     }
     change.Set("session", id.ToString(), "closed_at", ToValue(stamp.now), "");
+    change.Commit();
+  });
+}
+
+Status Record::ReopenSession(const SessionId& id, const std::string& reason, const Stamp& stamp) {
+  return Guarded([&] {
+    detail::RequireReason(reason, "opening a closed session again");
+    Change change(impl_->database, stamp);
+    if (!detail::GetSession(impl_->database, id).closed_at) {
+      Refuse(ErrorCode::kRecordRefused, "this session is open");
+    }
+    change.Set("session", id.ToString(), "closed_at", detail::Value{}, reason);
     change.Commit();
   });
 }

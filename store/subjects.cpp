@@ -3,6 +3,7 @@
 #include "store/detail/codec.h"
 #include "store/detail/impl.h"
 #include "store/detail/read.h"
+#include "store/pseudonym.h"
 
 namespace striae::store {
 namespace {
@@ -51,6 +52,8 @@ Status Record::AddSubject(const Subject& subject, const Stamp& stamp) {
     RefuseBadPseudonym(subject.pseudonym);
     Database& database = impl_->database;
     Change change(database, stamp);
+    const Study study = detail::Unwrap(GetStudy());
+    detail::Unwrap(CheckPseudonym(subject.pseudonym, study.subject_pattern, study.check_digit));
     if (database.Count("SELECT count(*) FROM subject WHERE pseudonym = ? COLLATE NOCASE", subject.pseudonym) != 0) {
       Refuse(ErrorCode::kRecordRefused,
              "subject " + subject.pseudonym + " is in this study already; choose another pseudonym");

@@ -107,7 +107,19 @@ void Database::Configure() {
 }
 
 void Database::SetBusyTimeout(std::chrono::milliseconds wait) {
-  sqlite_.setBusyTimeout(static_cast<int>(wait.count()));
+  busy_->patience = wait;
+  sqlite3_busy_handler(sqlite_.getHandle(), &Database::OnBusy, busy_.get());
+}
+
+int Database::OnBusy(void* state, int calls) {
+  Busy& busy = *static_cast<Busy*>(state);
+  if (calls == 0) busy.waited_ms = 0;
+  if (busy.waited_ms >= busy.patience.count()) return 0;
+  constexpr int kStepMs = 20;
+  constexpr std::int64_t kTellAfterMs = 500;  // a commit takes less; longer waits are worth a word
+  if (busy.waited_ms >= kTellAfterMs && busy.tell) std::exchange(busy.tell, nullptr)();
+  busy.waited_ms += sqlite3_sleep(kStepMs);
+  return 1;
 }
 
 std::int64_t Database::UserVersion() { return Count("PRAGMA user_version"); }

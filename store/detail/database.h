@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -79,6 +80,8 @@ class Database {
   Database(const std::filesystem::path& file, bool create);
   void Configure();
   void SetBusyTimeout(std::chrono::milliseconds wait);
+  /// Called once, when another program's lock makes this one wait.
+  void WhenBusy(std::function<void()> tell) { busy_->tell = std::move(tell); }
 
   void Execute(const std::string& sql) { sqlite_.exec(sql); }
   [[nodiscard]] std::int64_t UserVersion();
@@ -127,6 +130,15 @@ class Database {
   };
   SQLite::Statement& Bind(const std::string& sql, const std::vector<Value>& values);
 
+  /// Has one place for SQLite's callback, wherever the Database is moved.
+  struct Busy {
+    std::chrono::milliseconds patience{0};
+    std::function<void()> tell;
+    std::int64_t waited_ms = 0;
+  };
+  static int OnBusy(void* busy, int calls);
+
+  std::unique_ptr<Busy> busy_ = std::make_unique<Busy>();
   SQLite::Database sqlite_;
   std::unordered_map<std::string, std::unique_ptr<SQLite::Statement>> statements_;
 };

@@ -47,6 +47,7 @@ Session ReadSession(const RowView& row) {
   if (!row.IsNull(5)) session.closed_at = row.Time(5);
   session.site_time_zone = row.Text(6);
   if (!row.IsNull(7)) session.camera_clock_offset_s = static_cast<int>(row.Integer(7));
+  if (!row.IsNull(8)) session.day = row.Day(8);
   return session;
 }
 

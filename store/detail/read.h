@@ -15,7 +15,7 @@ inline constexpr const char* kVisits = "SELECT id, subject_id, name FROM visit";
 inline constexpr const char* kDevices = "SELECT id, serial, range, model, lens FROM device";
 inline constexpr const char* kCalibrations = "SELECT id, device_id, sha256, valid_from FROM calibration";
 inline constexpr const char* kSessions =
-    "SELECT id, subject_id, visit_id, operator, opened_at, closed_at, site_time_zone, camera_clock_offset_s FROM "
+    "SELECT id, subject_id, visit_id, operator, opened_at, closed_at, site_time_zone, camera_clock_offset_s, day FROM "
     "session";
 inline constexpr const char* kCaptures =
     "SELECT id, session_id, sha256, file_name, media_type, size_bytes, role, body_site, laterality, imported_at, "

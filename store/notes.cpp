@@ -1,0 +1,94 @@
+// Notes and deviations, about anything in the record.
+#include "store/annotations.h"
+#include "store/detail/change.h"
+#include "store/detail/impl.h"
+#include "store/detail/require.h"
+
+namespace striae::store {
+namespace {
+
+using detail::Access;
+using detail::Change;
+using detail::Database;
+using detail::Guarded;
+using detail::Refuse;
+using detail::RowView;
+using detail::ToValue;
+
+constexpr const char* kNotes =
+    "SELECT id, entity, entity_id, kind, date, text, by, at, supersedes FROM note n WHERE in_error = 0 AND NOT EXISTS "
+    "(SELECT 1 FROM note newer WHERE newer.supersedes = n.id)";
+
+StudyNote ReadNote(const RowView& row) {
+  StudyNote note{row.Key<NoteId>(0),
+                 {row.Text(1), row.Text(2)},
+                 row.Text(3) == "deviation",
+                 row.Day(4),
+                 row.Text(5),
+                 row.Text(6),
+                 row.Time(7),
+                 {}};
+  if (!row.IsNull(8)) note.supersedes = row.Key<NoteId>(8);
+  return note;
+}
+
+StudyNote InForce(Database& database, const NoteId& id) {
+  auto found = database.One(std::string(kNotes) + " AND n.id = ?", ReadNote, id);
+  if (!found) Refuse(ErrorCode::kNotFound, "no note " + id.ToString() + " in force; see 'striae note list'");
+  return *std::move(found);
+}
+
+void Insert(Change& change, const StudyNote& n, bool in_error, const std::string& reason, const Stamp& stamp) {
+  change.Insert("note",
+                {{"id", ToValue(n.id)},
+                 {"entity", ToValue(n.about.entity)},
+                 {"entity_id", ToValue(n.about.id)},
+                 {"kind", ToValue(n.deviation ? "deviation" : "note")},
+                 {"date", ToValue(n.date)},
+                 {"text", ToValue(n.text)},
+                 {"in_error", ToValue(in_error ? 1 : 0)},
+                 {"by", ToValue(stamp.user)},
+                 {"at", ToValue(stamp.now)},
+                 {"supersedes", ToValue(n.supersedes)}},
+                reason);
+}
+
+}  // namespace
+
+Status AddNote(Record& record, const StudyNote& note, const std::string& reason, const Stamp& stamp) {
+  return Guarded([&] {
+    detail::RequireText(note.text, "a note");
+    Database& database = Access::Of(record).database;
+    Change change(database, stamp);
+    detail::Unwrap(record.Find(note.about.id));
+    if (note.supersedes) {
+      detail::RequireReason(reason, "a correction");
+      InForce(database, *note.supersedes);
+    }
+    Insert(change, note, false, reason, stamp);
+    change.Commit();
+  });
+}
+
+Status StrikeNote(Record& record, const NoteId& id, const NoteId& new_id, const std::string& reason,
+                  const Stamp& stamp) {
+  return Guarded([&] {
+    detail::RequireReason(reason, "a correction");
+    Database& database = Access::Of(record).database;
+    Change change(database, stamp);
+    StudyNote struck = InForce(database, id);
+    struck.id = new_id;
+    struck.supersedes = id;
+    Insert(change, struck, true, reason, stamp);
+    change.Commit();
+  });
+}
+
+Result<std::vector<StudyNote>> Notes(Record& record, std::optional<std::string> about) {
+  return Guarded([&] {
+    return Access::Of(record).database.Rows(
+        std::string(kNotes) + " AND (?1 IS NULL OR entity_id = ?1) ORDER BY date, at, id", ReadNote, about);
+  });
+}
+
+}  // namespace striae::store
