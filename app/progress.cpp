@@ -17,6 +17,16 @@ void ProgressBar::Show(std::size_t done, std::size_t all, const std::string& wha
   shown_ = true;
 }
 
+std::function<void(std::size_t, std::size_t, std::string_view)> ProgressBar::AsProgress() {
+  if (!on_terminal_) return {};
+  return [this](std::size_t done, std::size_t all, std::string_view what) {
+    // Not more often than an eye can follow.
+    constexpr std::size_t kSteps = 200;
+    if (all > kSteps && done != all && done % (all / kSteps) != 0) return;
+    Show(done, all, std::string(what));
+  };
+}
+
 void ProgressBar::Clear() {
   if (shown_) std::cerr << "\r\x1b[K" << std::flush;
   shown_ = false;

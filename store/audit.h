@@ -32,6 +32,7 @@ struct AuditRow {
 struct AuditHead {
   std::int64_t sequence = 0;
   Sha256 hash;
+  std::string origin = {};  ///< of which copy; empty: of this one
 };
 
 struct Finding {
@@ -44,7 +45,8 @@ struct Finding {
 struct CheckReport {
   std::vector<Finding> findings;
   std::int64_t audit_rows = 0, objects = 0;
-  AuditHead head;
+  AuditHead head;                     ///< of this copy's chain
+  std::vector<AuditHead> heads;       ///< of every copy's chain that has been merged, this one's included
   [[nodiscard]] bool Passed() const;  ///< no error (warnings allowed)
 };
 

@@ -39,9 +39,8 @@ struct ChainWalk {
       findings.Error(NameOf(row), "was altered: its content does not give its hash; restore a backup");
     }
     if (row.stamp.now < time) {
-      findings.Warning(NameOf(row), "the clock of " + row.stamp.machine + " was set back: " +
-                                        row.stamp.now.ToString() + " after " + time.ToString() +
-                                        "; the order is that of the row numbers");
+      findings.Warning(NameOf(row), "the clock of " + row.stamp.machine + " was set back: " + row.stamp.now.ToString() +
+                                        " after " + time.ToString() + "; the order is that of the row numbers");
     }
     hash = row.hash;
     sequence = row.sequence;
@@ -190,14 +189,13 @@ void CheckRowsAgainstTrail(Database& database, const Progress& progress, Finding
     }
     if (progress) progress(++done, tables.size(), "tables");
   }
-  database.Each(
-      "SELECT entity, min(sequence) FROM audit WHERE action IN ('create', 'change') GROUP BY entity",
-      [&](const RowView& row) {
-        if (std::find(tables.begin(), tables.end(), row.Text(0)) != tables.end()) return;
-        findings.Error("table " + row.Text(0), "is not in the record, but audit row " +
-                                                   std::to_string(row.Integer(1)) +
-                                                   " speaks of it; restore a backup");
-      });
+  database.Each("SELECT entity, min(sequence) FROM audit WHERE action IN ('create', 'change') GROUP BY entity",
+                [&](const RowView& row) {
+                  if (std::find(tables.begin(), tables.end(), row.Text(0)) != tables.end()) return;
+                  findings.Error("table " + row.Text(0), "is not in the record, but audit row " +
+                                                             std::to_string(row.Integer(1)) +
+                                                             " speaks of it; restore a backup");
+                });
 }
 
 }  // namespace striae::store::detail

@@ -27,6 +27,20 @@ class File {
   int descriptor_;
 };
 
+/// Who works with a folder: any number of programs share it, and one that rearranges it (repair) has it alone. The lock
+/// goes with the program, however that ends. File systems without locks count as shared.
+class FolderLock {
+ public:
+  /// Waits up to ten seconds for a repair to end; throws Failed (kIo) after that.
+  explicit FolderLock(const std::filesystem::path& folder);
+  /// False when another program works with the folder, or when that cannot be known.
+  [[nodiscard]] bool TakeAlone() const;
+  void Share() const;
+
+ private:
+  File folder_;
+};
+
 /// `what` reads "read", "write", ...; `reason` is an errno.
 [[noreturn]] void RefuseIo(const char* what, const std::filesystem::path& path, int reason);
 /// What was linked or made in the folder is on the disk when this returns.
@@ -37,6 +51,13 @@ void MakeFolder(const std::filesystem::path& folder);
 void WriteWhole(int file, const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 /// Gives the finished file its name unless one is there. False when there is one.
 bool Publish(const std::filesystem::path& temporary, const std::filesystem::path& target);
+/// A new file of that name, whole or absent; kRecordRefused when there is one.
+void WriteNew(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+/// Copies a file to a new name, whole or absent, without holding it in memory. Returns the SHA-256 of what was written.
+/// `expected`: kRecordDamaged, and nothing is left, when the bytes are not those.
+Sha256 CopyNew(const std::filesystem::path& from, const std::filesystem::path& to, const Sha256* expected = nullptr);
+/// Gives a file another name in the same file system, never over one that is there. False when there is one.
+bool MoveNew(const std::filesystem::path& from, const std::filesystem::path& to);
 /// The whole file; shorter than its size when it is cut meanwhile.
 std::vector<std::uint8_t> ReadWhole(const std::filesystem::path& path);
 /// SHA-256 without holding the file in memory.
