@@ -2,26 +2,24 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 namespace striae {
 
-/// Leaves elements that are made without a value as they are (std::allocator writes zeros, and the first touch of a
-/// large block costs more than most of what is done with it), and asks for huge pages where they pay.
+/// Memory of at least `bytes`, aligned for any vector instruction; its content is unset. Large blocks ask for huge
+/// pages, and blocks that were given back are handed out again: the first touch of a fresh one costs more than most of
+/// what is done with it. Throws std::bad_alloc. Safe to call from several threads.
+void* AllocateBuffer(std::size_t bytes);
+void FreeBuffer(void* memory, std::size_t bytes) noexcept;
+
+/// Leaves elements that are made without a value as they are, where std::allocator writes zeros.
 template <typename T>
 struct BufferAllocator {
   using value_type = T;
-  static constexpr std::size_t kHugePage = std::size_t{2} << 20;
-  static constexpr std::size_t kLarge = 2 * kHugePage;
 
   BufferAllocator() = default;
   template <typename U>
@@ -29,17 +27,9 @@ struct BufferAllocator {
 
   T* allocate(std::size_t count) {
     if (count > static_cast<std::size_t>(-1) / sizeof(T) / 2) throw std::bad_alloc();
-    const std::size_t bytes = count * sizeof(T);
-    const bool large = bytes >= kLarge;
-    const std::size_t unit = large ? kHugePage : alignof(std::max_align_t);
-    void* memory = std::aligned_alloc(unit, (bytes + unit - 1) / unit * unit);
-    if (memory == nullptr) throw std::bad_alloc();
-#if defined(MADV_HUGEPAGE)
-    if (large) madvise(memory, bytes, MADV_HUGEPAGE);  // advice: nothing is lost where it is not taken
-#endif
-    return static_cast<T*>(memory);
+    return static_cast<T*>(AllocateBuffer(count * sizeof(T)));
   }
-  void deallocate(T* memory, std::size_t /*count*/) { std::free(memory); }
+  void deallocate(T* memory, std::size_t count) { FreeBuffer(memory, count * sizeof(T)); }
 
   template <typename U>
   void construct(U* at) {

@@ -1,93 +1,85 @@
 #include "reconstruct/phase.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
 #include <vector>
 
+#include "reconstruct/detail/carrier.h"
 #include "reconstruct/detail/fourier.h"
 #include "reconstruct/detail/mask.h"
-#include "reconstruct/detail/transpose.h"
+#include "reconstruct/detail/parallel.h"
 
 namespace striae::reconstruct {
 namespace {
 
-using detail::AnalyticSignal;
 using detail::Carrier;
-using detail::ParallelLines;
-using detail::Transposed;
+using detail::kLanes;
+using detail::Lanes;
+using detail::LineAnalysis;
+using detail::LineLayout;
+using detail::SampledLines;
 
 /// Second differences of the phase beyond this (rad) are a step: a smooth surface stays below a tenth of it.
 constexpr float kStep_rad = 0.7F;
 
-/// sRGB's decoding (IEC 61966-2-1): the stripes' shading multiplies light, not its encoding.
-class Linearisation {
- public:
-  Linearisation() {
-    for (std::size_t i = 0; i < table_.size(); ++i) {
-      const double v = static_cast<double>(i) / kCells;
-      table_[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-    }
-  }
-  float operator()(float encoded) const {
-    const float x = std::clamp(encoded, 0.0F, 1.0F) * kCells;
-    const auto cell = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kCells - 1));
-    return table_[cell] + (x - static_cast<float>(cell)) * (table_[cell + 1] - table_[cell]);
-  }
-
- private:
-  static constexpr int kCells = 4096;
-  std::array<float, kCells + 1> table_{};
-};
-
-const Linearisation& Linear() {
-  static const Linearisation linear;
-  return linear;
-}
-
-ImageF LinearLight(const ImageF& encoded) {
-  const Linearisation& linear = Linear();
-  ImageF out(encoded.width(), encoded.height());
-  ParallelLines(encoded.height(), [&](int row) {
-    const float* in = encoded.Row(row);
-    float* to = out.Row(row);
-    for (int x = 0; x < encoded.width(); ++x) to[x] = linear(in[x]);
-  });
-  return out;
-}
-
 struct Chosen {
   StripeDirection direction;
+  LineLayout layout;  ///< of the lines across the stripes
+  SampledLines samples;
   Carrier carrier;
-  ImageF lines;  ///< across the stripes
 };
 
-Result<Chosen> ChooseDirection(const ImageF& encoded, std::optional<StripeDirection> wanted) {
-  const bool try_horizontal = wanted.value_or(StripeDirection::kHorizontal) == StripeDirection::kHorizontal;
-  const bool try_vertical = wanted.value_or(StripeDirection::kVertical) == StripeDirection::kVertical;
-  ImageF transposed = try_horizontal ? detail::TransposedThrough(encoded, Linear()) : ImageF();
-  ImageF light = try_vertical ? LinearLight(encoded) : ImageF();
-  const auto down = try_horizontal ? detail::FindCarrier(transposed) : std::nullopt;
-  const auto along = try_vertical ? detail::FindCarrier(light) : std::nullopt;
-  if (!down && !along) {
-    return Fail(ErrorCode::kNoCarrier,
-                "no stripes are found in this photograph; check that the flash fired through the grating and that the "
-                "subject is in focus and within the measuring range");
+Result<Chosen> ChooseDirection(const Photograph& photograph, std::optional<StripeDirection> wanted) {
+  std::optional<Chosen> best;
+  for (const auto direction : {StripeDirection::kHorizontal, StripeDirection::kVertical}) {
+    if (wanted.value_or(direction) != direction) continue;
+    const LineLayout layout(photograph.luminance.width(), photograph.luminance.height(),
+                            direction == StripeDirection::kHorizontal);
+    SampledLines samples = detail::SampleLines(photograph.luminance, layout, photograph.linear);
+    const auto carrier = detail::FindCarrier(samples);
+    if (!carrier || (best && best->carrier.prominence >= carrier->prominence)) continue;
+    best = Chosen{direction, layout, std::move(samples), *carrier};
   }
-  if (down && (!along || down->prominence >= along->prominence)) {
-    return Chosen{StripeDirection::kHorizontal, *down, std::move(transposed)};
-  }
-  return Chosen{StripeDirection::kVertical, *along, std::move(light)};
+  if (best) return std::move(*best);
+  return Fail(ErrorCode::kNoCarrier,
+              "no stripes are found in this photograph; check that the flash fired through the grating and that the "
+              "subject is in focus and within the measuring range");
 }
 
-/// Upper quartile of the modulation over the pixels whose amplitude is above the noise.
-float WellLitModulation(const AnalyticSignal& signal, float least_amplitude) {
-  constexpr std::size_t kStep = 37;  // a sample of the pixels will do
+/// One thread's memory for a block of lines.
+struct BlockMemory {
+  BlockMemory(const LineAnalysis& analysis, int length, int reach)
+      : scratch(analysis),
+        light(Count(length)),
+        phase(Count(length)),
+        amplitude(Count(length)),
+        background(Count(length)),
+        modulation(Count(length)),
+        maximum(Count(length + 2 * reach)),
+        mask(Count(length)) {}
+  static std::size_t Count(int length) { return static_cast<std::size_t>(length) * kLanes; }
+  LineAnalysis::Signal Signal() { return {phase.data(), amplitude.data(), background.data()}; }
+
+  LineAnalysis::Scratch scratch;
+  Lanes<float> light, phase, amplitude, background, modulation, maximum, falling;
+  Lanes<std::uint8_t> mask;
+  Lanes<std::uint16_t> runs;
+};
+
+/// Upper quartile of the modulation over the sampled pixels whose amplitude is above the noise.
+float WellLitModulation(const LineAnalysis& analysis, const SampledLines& samples, float least_amplitude) {
+  constexpr std::size_t kStep = 3;  // of the sampled pixels
+  BlockMemory memory(analysis, samples.length, 0);
   std::vector<float> modulations;
-  for (std::size_t i = 0; i < signal.amplitude.size(); i += kStep) {
-    const float amplitude = signal.amplitude.pixels()[i];
-    if (amplitude > 3 * least_amplitude)
-      modulations.push_back(amplitude / std::max(signal.background.pixels()[i], 1e-6F));
+  for (const Lanes<float>& light : samples.blocks) {
+    analysis(light.data(), memory.Signal(), memory.scratch);
+    for (std::size_t i = 0; i < light.size(); i += kStep) {
+      if (memory.amplitude[i] > 3 * least_amplitude)
+        modulations.push_back(memory.amplitude[i] / std::max(memory.background[i], 1e-6F));
+    }
   }
   if (modulations.empty()) return 0;
   const auto quartile = modulations.begin() + static_cast<long>(3 * modulations.size() / 4);
@@ -95,63 +87,52 @@ float WellLitModulation(const AnalyticSignal& signal, float least_amplitude) {
   return std::min(1.0F, *quartile);
 }
 
-/// Takes out runs of valid pixels shorter than `least` along each line.
-void DropShortRuns(Mask& lines, int least) {
-  ParallelLines(lines.height(), [&](int line) {
-    std::uint8_t* m = lines.Row(line);
-    for (int x = 0; x < lines.width();) {
-      int end = x;
-      while (end < lines.width() && m[end] != 0) ++end;
-      if (end - x < least) std::fill(m + x, m + end, std::uint8_t{0});
-      x = end + 1;
-    }
-  });
+detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const SampledLines& samples, double noise, double period_px,
+                            const PhaseOptions& options) {
+  detail::MaskLimits limits;
+  limits.least_amplitude = static_cast<float>(std::max(noise / options.largest_phase_noise, 1e-5));
+  limits.least_modulation = std::max(static_cast<float>(options.least_modulation),
+                                     static_cast<float>(options.least_modulation_share) *
+                                         WellLitModulation(analysis, samples, limits.least_amplitude));
+  limits.least_share = static_cast<float>(options.least_plateau_share);
+  limits.least_share_between = static_cast<float>(options.least_share_between);
+  limits.least_run_px = static_cast<int>(std::lround(options.least_run_periods * period_px));
+  return limits;
 }
 
-Mask MaskOf(const AnalyticSignal& signal, double period_px, const PhaseOptions& options) {
-  const int near = static_cast<int>(std::lround(1.5 * period_px)), far = static_cast<int>(std::lround(3 * period_px));
-  const int width = signal.amplitude.width(), height = signal.amplitude.height();
-  Mask mask(width, height, 0);
-  const auto share = static_cast<float>(options.least_plateau_share);
-  const auto share_between = static_cast<float>(options.least_share_between);
-  const auto least = static_cast<float>(std::max(signal.noise / options.largest_phase_noise, 1e-5));
-  const float modulation =
-      std::max(static_cast<float>(options.least_modulation),
-               static_cast<float>(options.least_modulation_share) * WellLitModulation(signal, least));
-  detail::ParallelBlocks(height, [&](int, int begin, int end) {
-    detail::LineMaximum plateau(near, near), before(far, 0), after(0, far);
-    std::vector<float> top(static_cast<std::size_t>(width)), left(top), right(top);
-    for (int line = begin; line < end; ++line) {
-      const float *amplitude = signal.amplitude.Row(line), *background = signal.background.Row(line);
-      plateau(amplitude, width, top.data());
-      before(amplitude, width, left.data());
-      after(amplitude, width, right.data());
-      std::uint8_t* m = mask.Row(line);
-      for (int x = 0; x < width; ++x) {
-        const auto i = static_cast<std::size_t>(x);
-        const bool between = std::min(left[i], right[i]) > share * top[i];
-        const float needed = (between ? share_between : share) * top[i];
-        m[x] = amplitude[x] > least && amplitude[x] > needed && amplitude[x] > modulation * background[x] ? 1 : 0;
-      }
-    }
-  });
-  DropShortRuns(mask, static_cast<int>(std::lround(options.least_run_periods * period_px)));
-  return mask;
-}
-
-/// Turned back to the photograph's orientation; what it was made of is given up at once.
-template <typename T>
-Image<T> Turned(Image<T>& lines, bool horizontal) {
-  Image<T> given = std::move(lines);
-  lines = {};
-  return horizontal ? Transposed(given) : given;
-}
-
-double SaturatedShare(const Photograph& photograph) {
-  const auto& pixels = photograph.luminance.pixels();
-  const auto saturated =
-      std::count_if(pixels.begin(), pixels.end(), [&](float v) { return v >= photograph.saturation_level; });
-  return static_cast<double>(saturated) / static_cast<double>(pixels.size());
+/// Fills the images of `result` and the wrapped phase, block by block; each block stays in the processor's cache.
+void AnalyseBlocks(const Photograph& photograph, const LineLayout& layout, const LineAnalysis& analysis,
+                   const detail::MaskLimits& limits, ImageF& wrapped, PhaseResult& result) {
+  const int reach = static_cast<int>(std::lround(1.5 * result.carrier_period_px));  // of the plateau around a pixel
+  const auto threads = static_cast<std::size_t>(detail::ThreadCount());
+  std::vector<std::unique_ptr<BlockMemory>> memories(threads);
+  std::vector<std::size_t> saturated(threads, 0);
+  detail::ParallelBlocks(
+      layout.blocks(),
+      [&](int thread, int first, int last) {
+        const auto t = static_cast<std::size_t>(thread);
+        if (!memories[t]) memories[t] = std::make_unique<BlockMemory>(analysis, layout.length(), reach);
+        BlockMemory& m = *memories[t];
+        for (int block = first; block < last; ++block) {
+          layout.Load(photograph.luminance, block, m.light.data());
+          saturated[t] +=
+              detail::CountAtLeast(m.light.data(), layout.length(), layout.LanesOf(block), photograph.saturation_level);
+          if (!photograph.linear) detail::DecodeSrgb(m.light.data(), m.light.size());
+          analysis(m.light.data(), m.Signal(), m.scratch);
+          detail::LaneMaximum(m.amplitude.data(), layout.length(), reach, m.maximum.data(), m.falling);
+          detail::JudgeLanes(m.amplitude.data(), m.background.data(), m.maximum.data(), layout.length(), reach, limits,
+                             m.modulation.data(), m.mask.data());
+          detail::DropShortRuns(m.mask.data(), layout.length(), limits.least_run_px, m.runs);
+          layout.Store(m.phase.data(), block, wrapped);
+          layout.Store(m.amplitude.data(), block, result.amplitude);
+          layout.Store(m.background.data(), block, result.background);
+          layout.Store(m.modulation.data(), block, result.modulation);
+          layout.Store(m.mask.data(), block, result.mask);
+        }
+      },
+      1);
+  result.saturated_share = static_cast<double>(std::accumulate(saturated.begin(), saturated.end(), std::size_t{0})) /
+                           static_cast<double>(photograph.luminance.size());
 }
 
 }  // namespace
@@ -163,23 +144,22 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
     return Fail(ErrorCode::kBadImage, "the photograph is only " + std::to_string(width) + " x " +
                                           std::to_string(height) + " pixels; at least 32 x 32 are needed");
   }
-  auto chosen = ChooseDirection(photograph.luminance, options.direction);
+  const auto chosen = ChooseDirection(photograph, options.direction);
   if (!chosen) return Fail(chosen.error());
-  const bool horizontal = chosen->direction == StripeDirection::kHorizontal;
 
   PhaseResult result;
   result.direction = chosen->direction;
   result.carrier_period_px = chosen->carrier.period_px;
   result.carrier_prominence = chosen->carrier.prominence;
-  result.saturated_share = SaturatedShare(photograph);
-  AnalyticSignal signal = detail::AnalyseLines(chosen->lines, result.carrier_period_px, options.window_half_width);
-  chosen->lines = {};
-  result.noise = signal.noise;
-  Mask mask = MaskOf(signal, result.carrier_period_px, options);
-  result.mask = Turned(mask, horizontal);
-  result.amplitude = Turned(signal.amplitude, horizontal);
-  result.background = Turned(signal.background, horizontal);
-  ImageF wrapped = Turned(signal.phase, horizontal);
+  const LineAnalysis analysis(chosen->layout.length(), result.carrier_period_px, options.window_half_width);
+  result.noise = analysis.Noise(chosen->samples.blocks);
+  const auto limits = LimitsOf(analysis, chosen->samples, result.noise, result.carrier_period_px, options);
+
+  ImageF wrapped = ImageF::Unset(width, height);
+  for (ImageF* image : {&result.amplitude, &result.background, &result.modulation})
+    *image = ImageF::Unset(width, height);
+  result.mask = Mask::Unset(width, height);
+  AnalyseBlocks(photograph, chosen->layout, analysis, limits, wrapped, result);
 
   detail::CutSteps(wrapped, result.mask, kStep_rad);
   detail::CleanMask(result.mask, options.least_region_px);
@@ -188,14 +168,6 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
                 "the stripes are too faint everywhere to carry phase; check flash, ISO and distance");
   }
   result.unwrapped = Unwrap(wrapped, result.mask);
-  wrapped = {};
-  result.modulation = ImageF(width, height);
-  ParallelLines(height, [&](int row) {
-    for (int x = 0; x < width; ++x) {
-      const float background = std::max(result.background(x, row), 1e-6F);
-      result.modulation(x, row) = std::clamp(result.amplitude(x, row) / background, 0.0F, 1.0F);
-    }
-  });
   return result;
 }
 

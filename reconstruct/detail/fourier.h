@@ -1,31 +1,49 @@
-// The Fourier stage on lines across the stripes: background, carrier, Hann window, analytic signal.
+// The Fourier stage on lines across the stripes: background, Hann window, analytic signal.
 #pragma once
 
-#include <optional>
+#include <vector>
 
-#include "core/image.h"
+#include "reconstruct/detail/line_block.h"
+#include "reconstruct/detail/transform.h"
 
 namespace striae::reconstruct::detail {
 
-struct Carrier {
-  double period_px = 0;
-  double prominence = 0;  ///< peak over the higher of the two valleys beside it; natural scenes stay below about 2
-};
-
-/// The strongest periodic pattern along the lines: the peak of the mean power spectrum weighted with the frequency
-/// (natural scenes fall with it). nullopt when the lines are shorter than eight periods of anything.
-std::optional<Carrier> FindCarrier(const ImageF& lines);
-
-/// Every image has the lines' size: width = along the line, across the stripes.
-struct AnalyticSignal {
-  ImageF phase;       ///< wrapped, rad, in (-pi, pi]; 0 at the centre of a bright stripe
-  ImageF amplitude;   ///< of the fundamental, in the units of the signal
-  ImageF background;  ///< local mean over one period
-  double noise = 0;   ///< standard deviation of the amplitude's components, from the band above the harmonics
-};
-
 /// Takeda's Fourier transform profilometry, line by line, with a Hann window over
 /// f0 (1 - half_width) .. f0 (1 + half_width) (the paper's section 3). Lines are padded to a length that FFTW likes.
-AnalyticSignal AnalyseLines(const ImageF& lines, double period_px, double half_width);
+class LineAnalysis {
+ public:
+  LineAnalysis(int length, double period_px, double half_width);
+
+  /// One thread's memory.
+  class Scratch {
+   public:
+    explicit Scratch(const LineAnalysis& analysis);
+
+   private:
+    friend class LineAnalysis;
+    FftwArray<float> lines, results;  ///< kLanes rows of length_
+    FftwArray<float> real;
+    FftwArray<fftwf_complex> spectrum, signal;
+    Lanes<float> once;
+  };
+
+  /// All of length * kLanes values.
+  struct Signal {
+    float* phase;       ///< wrapped, rad, in (-pi, pi]; 0 at the centre of a bright stripe
+    float* amplitude;   ///< of the fundamental, in the units of the signal
+    float* background;  ///< local mean over one period, twice: zero at the carrier and its harmonics
+  };
+  void operator()(const float* light, const Signal& out, Scratch& scratch) const;
+
+  /// Standard deviation of the amplitude's two components, from the band above the harmonics: the median over lines.
+  [[nodiscard]] double Noise(const std::vector<Lanes<float>>& blocks) const;
+
+ private:
+  void Transform(const float* line, Scratch& scratch) const;
+  int length_, padded_, first_ = 0;
+  double period_px_;
+  std::vector<float> window_;  ///< from bin first_ on: 2 * Hann / padded length
+  Plans plans_;
+};
 
 }  // namespace striae::reconstruct::detail

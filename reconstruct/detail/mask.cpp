@@ -113,19 +113,6 @@ void DropSpecks(Mask& mask, int least_px) {
 
 }  // namespace
 
-void LineMaximum::operator()(const float* in, int width, float* out) {
-  const auto count = static_cast<std::size_t>(width), length = static_cast<std::size_t>(length_);
-  const std::size_t padded = (count + 2 * length - 2) / length * length;
-  falling_.assign(padded, std::numeric_limits<float>::lowest());
-  std::copy(in, in + count, falling_.begin() + before_);
-  rising_ = falling_;
-  for (std::size_t block = 0; block < padded; block += length) {
-    for (std::size_t i = block + 1; i < block + length; ++i) rising_[i] = std::max(rising_[i], rising_[i - 1]);
-    for (std::size_t i = block + length - 1; i-- > block;) falling_[i] = std::max(falling_[i], falling_[i + 1]);
-  }
-  for (std::size_t x = 0; x < count; ++x) out[x] = std::max(falling_[x], rising_[x + length - 1]);
-}
-
 void CleanMask(Mask& mask, int least_px) {
   mask = Morphed(Morphed(mask, true), false);
   DropSpecks(mask, least_px);

@@ -94,7 +94,7 @@ class EndReader {
   [[nodiscard]] bool OnlyTheStripesEnd(int line, int crossing, int start, int inwards, double plateau) const {
     const Mean out = MeanOver(line, crossing - inwards * 1.75 * period_, crossing - inwards * 3.5 * period_);
     const Mean in = MeanOver(line, start, start + inwards * 2.0 * period_);
-    if (out.count < period_ / 2 || in.count == 0 || in.background <= 0) return false;
+    if (out.count < period_ / 5 || in.count == 0 || in.background <= 0) return false;
     const double ambient = out.background / in.background;
     const double modulation = out.amplitude / std::max(1e-9, out.background) / (in.amplitude / in.background);
     if (ambient < kLeastAmbient) return false;

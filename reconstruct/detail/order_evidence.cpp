@@ -12,8 +12,8 @@ namespace striae::reconstruct::detail {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kLow = -0.5, kHigh = -0.5;    ///< where half of the plateau is: at this, and at N plus this
-constexpr double kLargestRemainder = 0.15;     ///< stripes; true ends scatter by 0.06, a wrong one is anywhere
+constexpr double kLow = -0.52, kHigh = -0.5;   ///< where half of the plateau is: at this, and at N plus this
+constexpr double kLargestRemainder = 0.12;     ///< stripes; true ends scatter by 0.06, a wrong one is anywhere
 constexpr double kLargestDisagreement = 0.25;  ///< of the two ends' distance from N
 constexpr double kRangeSlack = 0.12;           ///< of the middle of the working range, beyond either end
 

@@ -1,0 +1,153 @@
+#include "reconstruct/detail/line_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reconstruct/detail/vector.h"
+
+namespace striae::reconstruct::detail {
+namespace {
+
+constexpr std::size_t At(int position) { return static_cast<std::size_t>(position) * kLanes; }
+
+// One value of every lane (GCC's and clang's vector types: arithmetic is by lane, a comparison gives 0 or -1).
+using Floats = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
+using Doubles = double __attribute__((vector_size(8 * kLanes)));
+using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
+using Shorts = std::uint16_t __attribute__((vector_size(2 * kLanes), aligned(2), may_alias));
+using Bytes = std::uint8_t __attribute__((vector_size(kLanes), aligned(1), may_alias));
+
+// g++ warns that such a value would be returned otherwise with wider vectors; the only function that does is inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+#define STRIAE_LANES(type, pointer) (*reinterpret_cast<type*>(pointer))
+
+}  // namespace
+
+STRIAE_VECTORISED void DecodeSrgb(float* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = std::min(std::max(values[i], 0.0F), 1.0F);
+    // Chebyshev interpolation of ((x + 0.055) / 1.055)^2.4 over [0.04045, 1]; largest error 7.6e-7.
+    float y = -0.06936492461840255F;
+    y = y * x + 0.3447260345593203F;
+    y = y * x - 0.748934319425825F;
+    y = y * x + 0.9590580301542184F;
+    y = y * x - 0.8699634283256948F;
+    y = y * x + 0.8628650678609223F;
+    y = y * x + 0.48547653236920857F;
+    y = y * x + 0.0352814210872205F;
+    y = y * x + 0.0008552189917855F;
+    values[i] = x <= 0.04045F ? x * (1 / 12.92F) : y;
+  }
+}
+
+STRIAE_VECTORISED std::size_t CountAtLeast(const float* values, int length, int lanes, float level) {
+  Ints count{};
+  for (int i = 0; i < length; ++i) count -= STRIAE_LANES(const Floats, values + At(i)) >= level;
+  std::size_t sum = 0;
+  for (int lane = 0; lane < lanes; ++lane) sum += static_cast<std::size_t>(count[static_cast<std::size_t>(lane)]);
+  return sum;
+}
+
+STRIAE_VECTORISED void BoxMean(const float* in, float* out, int length, double period_px) {
+  const int half = std::max(0, static_cast<int>(std::floor((period_px - 1) / 2)));
+  const auto rest = static_cast<float>((period_px - 1) / 2 - half);  // of the pixels beyond the whole ones
+  const auto scale = static_cast<float>(1 / period_px);
+  const auto row = [&](int position) { return in + At(std::clamp(position, 0, length - 1)); };
+  Doubles sum{};  // a float's would drift along the line
+  for (int k = -half; k <= half; ++k) sum += __builtin_convertvector(STRIAE_LANES(const Floats, row(k)), Doubles);
+  for (int i = 0; i < length; ++i) {
+    const Floats before = STRIAE_LANES(const Floats, row(i - half - 1));
+    const Floats leaving = STRIAE_LANES(const Floats, row(i - half));
+    const Floats coming = STRIAE_LANES(const Floats, row(i + half + 1));
+    STRIAE_LANES(Floats, out + At(i)) = (__builtin_convertvector(sum, Floats) + rest * (before + coming)) * scale;
+    sum += __builtin_convertvector(coming, Doubles) - __builtin_convertvector(leaving, Doubles);
+  }
+}
+
+STRIAE_VECTORISED void SubtractToLines(const float* a, const float* b, int length, float* out, std::size_t stride) {
+  for (int i = 0; i < length; ++i) {
+    const Floats difference = STRIAE_LANES(const Floats, a + At(i)) - STRIAE_LANES(const Floats, b + At(i));
+    float* to = out + i;
+    for (std::size_t l = 0; l < kLanes; ++l) to[l * stride] = difference[l];
+  }
+}
+
+STRIAE_VECTORISED void LinesToLanes(const float* in, std::size_t stride, int length, float* out) {
+  for (int i = 0; i < length; ++i) {
+    Floats value{};
+    for (std::size_t l = 0; l < kLanes; ++l) value[l] = in[l * stride + static_cast<std::size_t>(i)];
+    STRIAE_LANES(Floats, out + At(i)) = value;
+  }
+}
+
+STRIAE_VECTORISED void LaneMaximum(const float* in, int length, int reach, float* out, Lanes<float>& scratch) {
+  // Position i of the padded line is position i - 2 reach of `in`; out[i] is the largest of the padded i .. i + 2
+  // reach.
+  const int window = 2 * reach + 1, outputs = length + 2 * reach;
+  const int padded = (outputs + 2 * reach + window - 1) / window * window;
+  scratch.resize(At(padded));
+  const Floats lowest = Floats{} + std::numeric_limits<float>::lowest();
+  const auto value = [&](int i) -> Floats {
+    const int from = i - 2 * reach;
+    return from >= 0 && from < length ? STRIAE_LANES(const Floats, in + At(from)) : lowest;
+  };
+  Floats falling = lowest;  // largest from a position to the end of its block
+  for (int i = padded - 1; i >= 0; --i) {
+    if ((i + 1) % window == 0) falling = lowest;
+    const Floats own = value(i);
+    falling = own > falling ? own : falling;
+    STRIAE_LANES(Floats, scratch.data() + At(i)) = falling;
+  }
+  Floats rising = lowest;  // largest from the start of the block to where the window ends
+  for (int i = 0; i < outputs + window - 1; ++i) {
+    if (i % window == 0) rising = lowest;
+    const Floats own = value(i);
+    rising = own > rising ? own : rising;
+    if (i < window - 1) continue;
+    const int start = i - (window - 1);
+    const Floats begin = STRIAE_LANES(const Floats, scratch.data() + At(start));
+    STRIAE_LANES(Floats, out + At(start)) = begin > rising ? begin : rising;
+  }
+}
+
+STRIAE_VECTORISED void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length,
+                                  int reach, const MaskLimits& limits, float* modulation, std::uint8_t* mask) {
+  const Floats one = Floats{} + 1.0F, least = Floats{} + 1e-6F;
+  const Floats share = Floats{} + limits.least_share, between = Floats{} + limits.least_share_between;
+  for (int i = 0; i < length; ++i) {
+    const Floats a = STRIAE_LANES(const Floats, amplitude + At(i)), b = STRIAE_LANES(const Floats, background + At(i));
+    // The maxima within `reach` around the place, and within twice of it before and after.
+    const Floats around = STRIAE_LANES(const Floats, maximum + At(i + reach));
+    const Floats before = STRIAE_LANES(const Floats, maximum + At(i));
+    const Floats after = STRIAE_LANES(const Floats, maximum + At(i + 2 * reach));
+    const Floats lower = before < after ? before : after;
+    const Floats needed = (lower > share * around ? between : share) * around;
+    const Ints kept = (a > limits.least_amplitude) & (a > needed) & (a > limits.least_modulation * b);
+    const Floats ratio = a / (b > least ? b : least);
+    STRIAE_LANES(Floats, modulation + At(i)) = ratio < one ? ratio : one;
+    STRIAE_LANES(Bytes, mask + At(i)) = __builtin_convertvector(-kept, Bytes);
+  }
+}
+
+STRIAE_VECTORISED void DropShortRuns(std::uint8_t* mask, int length, int least, Lanes<std::uint16_t>& scratch) {
+  scratch.resize(At(length));
+  const auto needed = static_cast<std::uint16_t>(std::clamp(least, 1, 30000));
+  Shorts run{};
+  for (int i = 0; i < length; ++i) {
+    const Shorts valid = -__builtin_convertvector(STRIAE_LANES(const Bytes, mask + At(i)), Shorts);  // all bits or none
+    run = (run + static_cast<std::uint16_t>(1)) & valid;
+    run = run > static_cast<std::uint16_t>(60000) ? Shorts{} + static_cast<std::uint16_t>(30000) : run;
+    STRIAE_LANES(Shorts, scratch.data() + At(i)) = run;
+  }
+  run = Shorts{};
+  for (int i = length - 1; i >= 0; --i) {
+    const Shorts here = STRIAE_LANES(const Shorts, scratch.data() + At(i));
+    const Shorts valid = -__builtin_convertvector(STRIAE_LANES(const Bytes, mask + At(i)), Shorts);
+    run = (here > run ? here : run) & valid;
+    STRIAE_LANES(Bytes, mask + At(i)) = __builtin_convertvector((run >= needed) & static_cast<std::uint16_t>(1), Bytes);
+  }
+}
+
+}  // namespace striae::reconstruct::detail

@@ -1,0 +1,109 @@
+// Sixteen lines across the stripes at a time: position by position, so that one vector instruction serves all of them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/buffer.h"
+#include "core/image.h"
+
+namespace striae::reconstruct::detail {
+
+constexpr int kLanes = 16;
+
+/// value[position * kLanes + lane]; a lane is a line.
+template <typename T>
+using Lanes = Buffer<T>;
+
+/// Where the lines lie in an image: along columns (horizontal stripes) or along rows.
+class LineLayout {
+ public:
+  LineLayout(int width, int height, bool along_columns)
+      : width_(width), height_(height), along_columns_(along_columns) {}
+  [[nodiscard]] int lines() const { return along_columns_ ? width_ : height_; }
+  [[nodiscard]] int length() const { return along_columns_ ? height_ : width_; }
+  /// How many of a block's lanes are lines of their own.
+  [[nodiscard]] int LanesOf(int block) const { return Last(block) - block * kLanes; }
+  [[nodiscard]] int blocks() const { return (lines() + kLanes - 1) / kLanes; }
+
+  /// Lane l gets the line line_of(l).
+  template <typename T, typename LineOf>
+  void LoadLines(const Image<T>& image, const LineOf& line_of, T* lanes) const {
+    std::array<int, kLanes> line;
+    for (int lane = 0; lane < kLanes; ++lane) line[static_cast<std::size_t>(lane)] = line_of(lane);
+    for (int position = 0; position < length(); ++position) {
+      T* to = lanes + static_cast<std::size_t>(position) * kLanes;
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        to[lane] = along_columns_ ? image(line[lane], position) : image(position, line[lane]);
+      }
+    }
+  }
+  /// Sixteen neighbouring lines; lanes beyond the last line repeat it.
+  template <typename T>
+  void Load(const Image<T>& image, int block, T* lanes) const {
+    const int first = block * kLanes, last = Last(block);
+    if (along_columns_ && last - first == kLanes) {
+      for (int position = 0; position < length(); ++position) {
+        std::copy_n(image.Row(position) + first, kLanes, lanes + static_cast<std::size_t>(position) * kLanes);
+      }
+      return;
+    }
+    LoadLines(
+        image, [&](int lane) { return std::min(first + lane, last - 1); }, lanes);
+  }
+  template <typename T>
+  void Store(const T* lanes, int block, Image<T>& image) const {
+    const int first = block * kLanes, count = Last(block) - first;
+    for (int position = 0; position < length(); ++position) {
+      const T* from = lanes + static_cast<std::size_t>(position) * kLanes;
+      for (int lane = 0; lane < count; ++lane) {
+        (along_columns_ ? image(first + lane, position) : image(position, first + lane)) = from[lane];
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] int Last(int block) const { return std::min((block + 1) * kLanes, lines()); }
+  int width_, height_;
+  bool along_columns_;
+};
+
+/// sRGB's decoding (IEC 61966-2-1), in place; a polynomial within 1e-6 of full scale.
+void DecodeSrgb(float* values, std::size_t count);
+
+/// How many values of the first `lanes` lanes are `level` or more.
+std::size_t CountAtLeast(const float* values, int length, int lanes, float level);
+
+/// Mean over `period_px` (fractional) around every position; the ends repeat the border value.
+void BoxMean(const float* in, float* out, int length, double period_px);
+
+/// out = a - b, lane by lane: line l goes to out + l * stride.
+void SubtractToLines(const float* a, const float* b, int length, float* out, std::size_t stride);
+/// Line l, at in + l * stride, goes to lane l.
+void LinesToLanes(const float* in, std::size_t stride, int length, float* out);
+
+/// Largest value from `reach` positions before to `reach` after (van Herk, Pattern Recognition Letters 13 (1992) 517),
+/// for the positions -reach to length + reach - 1: out has (length + 2 reach) * kLanes values. `scratch` likewise as
+/// long as it needs to be.
+void LaneMaximum(const float* in, int length, int reach, float* out, Lanes<float>& scratch);
+
+/// What the mask asks of a pixel, besides its neighbourhood.
+struct MaskLimits {
+  float least_amplitude = 0;      ///< against the noise
+  float least_modulation = 0;     ///< amplitude over background
+  float least_share = 0;          ///< of the plateau around
+  float least_share_between = 0;  ///< the same between bright places
+  int least_run_px = 1;           ///< along the line
+};
+
+/// modulation = amplitude / background within 0..1; mask = 1 where the limits hold. `maximum` is LaneMaximum's, with
+/// that reach.
+void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length, int reach,
+                const MaskLimits& limits, float* modulation, std::uint8_t* mask);
+
+/// Takes out runs of valid pixels shorter than `least` along each lane.
+void DropShortRuns(std::uint8_t* mask, int length, int least, Lanes<std::uint16_t>& scratch);
+
+}  // namespace striae::reconstruct::detail
