@@ -89,7 +89,7 @@ Differences CompareWithReference(const Surface& surface, const CalibrationFit& f
       [&](int, int first, int last) {
         for (int i = first; i < last; ++i) {
           const Eigen::Vector3d point = surface.point_in_camera[static_cast<std::size_t>(i)].cast<double>();
-          const auto depth = fit.ReferenceDepth(shape, point / point.z(), position_mm, false);
+          const auto depth = fit.ReferenceDepth(shape, point / point.z(), position_mm, false, point.z());
           if (depth) difference[static_cast<std::size_t>(i)] = static_cast<float>(point.z() - *depth);
         }
       },

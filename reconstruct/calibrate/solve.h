@@ -3,6 +3,7 @@
 // number; nothing but the steps, the mesh and the rig's nominal geometry is given (OPTICS "Calibration").
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,20 @@ struct NominalRig {
   Eigen::Vector3d projector_center_mm = {0, -115, 45};
 };
 
+enum class Optimizer {
+  kLevenbergMarquardt,  ///< robust least squares in stripes (Ceres)
+  kPowell,              ///< the paper's: Powell's method (Brent's PRAXIS) on the sd of the differences in mm
+};
+
+struct SolveOptions {
+  /// The angular model is fitted where the pinhole model has found the whole stripes: it leaves too much for them to
+  /// settle.
+  ProjectorModel::Kind model = ProjectorModel::Kind::kPinhole;
+  Optimizer optimizer = Optimizer::kLevenbergMarquardt;
+  /// Told now and then how far the solution is (0..1) and what is done.
+  std::function<void(double, const std::string&)> progress;
+};
+
 struct ViewFit {
   int whole_stripes = 0;              ///< added to the photograph's own order
   double offset_before_rounding = 0;  ///< whole stripes added, less its rounding and the common part: near zero
@@ -60,23 +75,37 @@ struct CalibrationFit {
     double value = 0, uncertainty = 0;
   };
   std::vector<Parameter> parameters;
+  /// Pairs of parameters that the photographs hardly tell apart (|correlation| > 0.99): only together are they known.
+  struct Correlation {
+    std::string first, second;
+    double value = 0;
+  };
+  std::vector<Correlation> correlations;
 
   /// A point of the reference object, photographed at `position_mm`, in the camera frame.
   [[nodiscard]] Eigen::Vector3d PointInCamera(const Eigen::Vector3d& point_in_object, double position_mm) const;
   /// Depth (z, mm) at which a ray (z = 1) meets the reference at that position; nullopt beside it or near its steps
-  /// when `usable_only`.
+  /// when `usable_only`. `near_mm` is a depth near it, when one is known.
   [[nodiscard]] std::optional<double> ReferenceDepth(const ReferenceShape& shape, const Eigen::Vector3d& ray,
-                                                     double position_mm, bool usable_only) const;
+                                                     double position_mm, bool usable_only,
+                                                     std::optional<double> near_mm = {}) const;
 };
 
 /// kBadCalibration when fewer than three positions, or a slide that moved less than 5 % of the distance, cannot
 /// determine a rig. SolveCalibration asks it too; ask it before measuring photographs.
 Status CheckSlide(const std::vector<double>& positions_mm, double first_distance_mm);
 
+/// How well the relief's print on one photograph's stripes matches the reference, 0..1, wherever it is in the field:
+/// the correlation of orders less their best quadratic in the pixel. Quick; the nominal rig is enough.
+double MatchOfObject(const ReferenceShape& shape, const CalibrationView& view, const NominalRig& nominal);
+
+/// kBadCalibration when a photograph cannot show the reference: too few stripes, or another relief.
+Status CheckObject(const ReferenceShape& shape, const CalibrationView& view, const NominalRig& nominal);
+
 /// kBadCalibration with the reason when the photographs cannot determine the parameters: fewer than three positions,
 /// offsets that do not settle near whole numbers, a fit that gets worse when they are fixed, parameters far from any
 /// rig.
 Result<CalibrationFit> SolveCalibration(const ReferenceShape& shape, const std::vector<CalibrationView>& views,
-                                        const NominalRig& nominal);
+                                        const NominalRig& nominal, const SolveOptions& options = {});
 
 }  // namespace striae::reconstruct

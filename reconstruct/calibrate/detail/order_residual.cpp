@@ -13,8 +13,9 @@ ReferenceShape::Height HeightOrBase(const ReferenceShape& shape, double x, doubl
   return {shape.highest().z(), 0, 0, false};
 }
 
-double MeetRelief(const ReferenceShape& shape, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
-  double t = (shape.highest().z() - origin.z()) / direction.z();
+double MeetRelief(const ReferenceShape& shape, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                  std::optional<double> start) {
+  double t = start ? *start : (shape.highest().z() - origin.z()) / direction.z();
   for (int i = 0; i < kMeetIterations; ++i) {
     const Eigen::Vector3d p = origin + t * direction;
     const auto h = HeightOrBase(shape, p.x(), p.y());

@@ -13,17 +13,28 @@ namespace striae::reconstruct::detail {
 
 /// Layout of the parameter blocks.
 struct RigParameters {
-  double camera[6] = {};     ///< fy px, fx/fy, cx px, cy px, k1, k2
-  double projector[9] = {};  ///< centre x, y, z mm; Rodrigues x, y, z; focal stripes; central order; k1
-  double pose[6] = {};       ///< object to camera: Rodrigues x, y, z; translation x, y, z mm, at position 0
-  double slide[2] = {};      ///< direction (x, y, 1), normalised
+  double camera[6] = {};  ///< fy px, fx/fy, cx px, cy px, k1, k2
+  /// Centre x, y, z mm; Rodrigues x, y, z; focal stripes; central order; k1. The angular model has the same places:
+  /// [6] is orders per radian (1 / delta_a), [7] the order at angle 0 (-a0 / delta_a); rotation and k1 stay as they
+  /// are.
+  double projector[9] = {};
+  double pose[6] = {};   ///< object to camera: Rodrigues x, y, z; translation x, y, z mm, at position 0
+  double slide[2] = {};  ///< direction (x, y, 1), normalised
+};
+
+/// Which law gives the order of a point.
+struct ProjectorLaw {
+  ProjectorModel::Kind kind = ProjectorModel::Kind::kPinhole;
+  int axis = 1;  ///< across the stripes in the camera frame (angular only)
 };
 
 /// Height of the reference, continued flat beyond its border so that the residual stays continuous.
 ReferenceShape::Height HeightOrBase(const ReferenceShape& shape, double x, double y);
 
-/// Where a ray from `origin` along `direction` (object frame) meets the relief: the ray's parameter, by fixed point.
-double MeetRelief(const ReferenceShape& shape, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
+/// Where a ray from `origin` along `direction` (object frame) meets the relief: the ray's parameter, by Newton's method
+/// from the relief's base or from `start` (near it).
+double MeetRelief(const ReferenceShape& shape, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                  std::optional<double> start = {});
 
 /// Undistorted x/z, y/z of a pixel: solved in doubles, then one Newton step in T, which makes the first derivatives
 /// exact (implicit function theorem).
@@ -57,48 +68,37 @@ void UndistortedRay(const T* camera, const Eigen::Vector2d& pixel, T* ray) {
 }
 
 template <typename T>
-T OrderOf(const T* projector, const T* point) {
+T OrderOf(const ProjectorLaw& law, const T* projector, const T* point) {
   const T moved[3] = {point[0] - projector[0], point[1] - projector[1], point[2] - projector[2]};
+  if (law.kind == ProjectorModel::Kind::kAngular) {
+    using std::atan;
+    return projector[7] + projector[6] * atan(moved[law.axis] / moved[2]);
+  }
   T q[3];
   ceres::AngleAxisRotatePoint(projector + 3, moved, q);
   const T a = q[0] / q[2], b = q[1] / q[2];
   return projector[7] + projector[6] * b * (1.0 + projector[8] * (a * a + b * b));
 }
 
-class OrderResidual {
+/// Point in the camera frame where a pixel's ray meets the posed reference.
+template <typename T>
+class RayOnReference {
  public:
-  OrderResidual(const ReferenceShape& shape, const Eigen::Vector2d& pixel, double order, double position_mm,
-                double sigma_stripes)
-      : shape_(shape), pixel_(pixel), order_(order), position_mm_(position_mm), sigma_(sigma_stripes) {}
-
-  template <typename T>
-  bool operator()(const T* camera, const T* projector, const T* pose, const T* slide, const T* offset,
-                  T* residual) const {
-    T point[3];
-    PointOnReference(camera, pose, slide, point);
-    residual[0] = (order_ + offset[0] - OrderOf(projector, point)) / sigma_;
-    return true;
-  }
-
-  /// Point in the camera frame where the pixel's ray meets the reference.
-  template <typename T>
-  void PointOnReference(const T* camera, const T* pose, const T* slide, T* point) const {
-    T ray[3];
-    UndistortedRay(camera, pixel_, ray);
+  RayOnReference(const ReferenceShape& shape, const T* pose, const T* slide) : shape_(shape), pose_(pose) {
     const T norm = sqrt(slide[0] * slide[0] + slide[1] * slide[1] + 1.0);
-    const T origin_in_camera[3] = {-(pose[3] + position_mm_ * slide[0] / norm),
-                                   -(pose[4] + position_mm_ * slide[1] / norm), -(pose[5] + position_mm_ / norm)};
-    const T inverse[3] = {-pose[0], -pose[1], -pose[2]};
-    T origin[3], direction[3];
-    ceres::AngleAxisRotatePoint(inverse, origin_in_camera, origin);
-    ceres::AngleAxisRotatePoint(inverse, ray, direction);
-    const T depth = DepthOnReference(origin, direction);
-    for (int i = 0; i < 3; ++i) point[i] = depth * ray[i];
+    for (int i = 0; i < 2; ++i) slide_[i] = slide[i] / norm;
+    slide_[2] = 1.0 / norm;
+    for (int i = 0; i < 3; ++i) inverse_[i] = -pose[i];
   }
 
- private:
-  template <typename T>
-  T DepthOnReference(const T* origin, const T* direction) const {
+  /// Returns the reference's height there, for whether it may be used.
+  ReferenceShape::Height operator()(const T* camera, const Eigen::Vector2d& pixel, double position_mm, T* point) const {
+    T ray[3];
+    UndistortedRay(camera, pixel, ray);
+    T origin_in_camera[3], origin[3], direction[3];
+    for (int i = 0; i < 3; ++i) origin_in_camera[i] = -(pose_[3 + i] + position_mm * slide_[i]);
+    ceres::AngleAxisRotatePoint(inverse_, origin_in_camera, origin);
+    ceres::AngleAxisRotatePoint(inverse_, ray, direction);
     Eigen::Vector3d o, d;
     for (int i = 0; i < 3; ++i) {
       if constexpr (std::is_same_v<T, double>) {
@@ -109,17 +109,21 @@ class OrderResidual {
         d[i] = direction[i].a;
       }
     }
+    // One Newton step in T from the meeting found in doubles: exact first derivatives.
     const double t = MeetRelief(shape_, o, d);
     const Eigen::Vector3d p = o + t * d;
     const auto h = HeightOrBase(shape_, p.x(), p.y());
     const T gap = (origin[2] + t * direction[2]) - h.z - h.dz_dx * (origin[0] + t * direction[0] - p.x()) -
                   h.dz_dy * (origin[1] + t * direction[1] - p.y());
-    return t - gap / (d.z() - h.dz_dx * d.x() - h.dz_dy * d.y());
+    const T depth = t - gap / (d.z() - h.dz_dx * d.x() - h.dz_dy * d.y());
+    for (int i = 0; i < 3; ++i) point[i] = depth * ray[i];
+    return h;
   }
 
+ private:
   const ReferenceShape& shape_;
-  Eigen::Vector2d pixel_;
-  double order_, position_mm_, sigma_;
+  const T* pose_;
+  T slide_[3], inverse_[3];
 };
 
 }  // namespace striae::reconstruct::detail

@@ -1,7 +1,11 @@
 #include "reconstruct/calibrate/detail/start.h"
 
+#include <algorithm>
+
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+
+#include "reconstruct/detail/parallel.h"
 
 namespace striae::reconstruct::detail {
 namespace {
@@ -9,7 +13,6 @@ namespace {
 constexpr double kSearchShare = 0.12;  // of the object's size, to either side
 constexpr double kSearchStepShare = 0.02;
 constexpr double kSearchRoll_deg = 16, kRollStep_deg = 4;
-constexpr std::size_t kSearchSamples = 1200;
 
 double FocusedFocalLength(double focal_mm, double distance_mm) { return focal_mm / (1 - focal_mm / distance_mm); }
 
@@ -42,7 +45,7 @@ class QuadraticRemover {
 
 }  // namespace
 
-RigParameters NominalParameters(const NominalRig& nominal, const ReferenceShape& shape) {
+RigParameters NominalRigParameters(const NominalRig& nominal) {
   RigParameters p;
   const double distance = nominal.first_distance_mm;
   p.camera[0] = FocusedFocalLength(nominal.camera_focal_mm, distance) / nominal.pixel_pitch_mm;
@@ -59,13 +62,20 @@ RigParameters NominalParameters(const NominalRig& nominal, const ReferenceShape&
   Eigen::Map<Eigen::Vector3d>{p.projector + 3} = rotation.angle() * rotation.axis();
   p.projector[6] = nominal.projector_focal_mm / nominal.grating_period_mm;
   p.projector[7] = nominal.stripes ? (*nominal.stripes - 1) / 2.0 : 0;
-  const Eigen::Vector3d middle = (shape.lowest() + shape.highest()) / 2;
-  Eigen::Map<Eigen::Vector3d>{p.pose + 3} = Eigen::Vector3d(-middle.x(), -middle.y(), distance - middle.z());
   return p;
 }
 
-void FindObject(const ReferenceShape& shape, const CalibrationView& view, RigParameters& parameters) {
-  const std::size_t every = std::max<std::size_t>(1, view.samples.size() / kSearchSamples);
+RigParameters NominalParameters(const NominalRig& nominal, const ReferenceShape& shape) {
+  RigParameters p = NominalRigParameters(nominal);
+  const Eigen::Vector3d middle = (shape.lowest() + shape.highest()) / 2;
+  Eigen::Map<Eigen::Vector3d>{p.pose + 3} =
+      Eigen::Vector3d(-middle.x(), -middle.y(), nominal.first_distance_mm - middle.z());
+  return p;
+}
+
+double FindObject(const ReferenceShape& shape, const CalibrationView& view, RigParameters& parameters,
+                  std::size_t most_samples) {
+  const std::size_t every = std::max<std::size_t>(1, view.samples.size() / most_samples);
   std::vector<OrderSample> samples;
   for (std::size_t i = 0; i < view.samples.size(); i += every) samples.push_back(view.samples[i]);
   const QuadraticRemover remove(samples, parameters.camera[2]);
@@ -75,32 +85,43 @@ void FindObject(const ReferenceShape& shape, const CalibrationView& view, RigPar
   measured = remove(measured).normalized();
 
   const double size_mm = (shape.highest() - shape.lowest()).head<2>().maxCoeff();
-  const RigParameters start = parameters;
-  double best = -1;
-  const auto attempt = [&](double roll_deg, double dx_mm, double dy_mm) {
-    RigParameters trial = start;
-    trial.pose[2] = roll_deg * M_PI / 180;
-    trial.pose[3] += dx_mm;
-    trial.pose[4] += dy_mm;
-    Eigen::VectorXd predicted(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const OrderResidual at(shape, samples[static_cast<std::size_t>(i)].pixel, 0, view.position_mm, 1);
-      double point[3];
-      at.PointOnReference(trial.camera, trial.pose, trial.slide, point);
-      predicted[i] = OrderOf(trial.projector, point);
-    }
-    const double score = remove(predicted).normalized().dot(measured);
-    if (score > best) {
-      best = score;
-      parameters = trial;
-    }
-  };
   const double reach = kSearchShare * size_mm, step = kSearchStepShare * size_mm;
-  for (double roll = -kSearchRoll_deg; roll <= kSearchRoll_deg; roll += kRollStep_deg) {
+  std::vector<RigParameters> trials;
+  for (double roll_deg = -kSearchRoll_deg; roll_deg <= kSearchRoll_deg; roll_deg += kRollStep_deg) {
     for (double dx = -reach; dx <= reach; dx += step) {
-      for (double dy = -reach; dy <= reach; dy += step) attempt(roll, dx, dy);
+      for (double dy = -reach; dy <= reach; dy += step) {
+        trials.push_back(parameters);
+        trials.back().pose[2] = roll_deg * M_PI / 180;
+        trials.back().pose[3] += dx;
+        trials.back().pose[4] += dy;
+      }
     }
   }
+  std::vector<double> scores(trials.size());
+  ParallelLines(static_cast<int>(trials.size()), [&](int t) {
+    const RigParameters& trial = trials[static_cast<std::size_t>(t)];
+    const RayOnReference<double> reference(shape, trial.pose, trial.slide);
+    Eigen::VectorXd predicted(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      double point[3];
+      reference(trial.camera, samples[static_cast<std::size_t>(i)].pixel, view.position_mm, point);
+      predicted[i] = OrderOf({}, trial.projector, point);
+    }
+    scores[static_cast<std::size_t>(t)] = remove(predicted).normalized().dot(measured);
+  });
+  const auto best = std::max_element(scores.begin(), scores.end());
+  parameters = trials[static_cast<std::size_t>(best - scores.begin())];
+  return *best;
+}
+
+RigParameters AngularFrom(const RigParameters& pinhole, int axis) {
+  RigParameters angular = pinhole;
+  const Eigen::Vector3d straight =
+      RotationFromRodrigues(Eigen::Map<const Eigen::Vector3d>(pinhole.projector + 3)).transpose() *
+      Eigen::Vector3d::UnitZ();
+  angular.projector[7] = pinhole.projector[7] - pinhole.projector[6] * std::atan(straight[axis] / straight.z());
+  for (const int i : {3, 4, 5, 8}) angular.projector[i] = 0;
+  return angular;
 }
 
 }  // namespace striae::reconstruct::detail

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+
+#include <nlopt.hpp>
+
+#include "reconstruct/calibrate/detail/orders.h"
+#include "reconstruct/calibrate/detail/stages.h"
+
+namespace striae::reconstruct::detail {
+namespace {
+
+constexpr std::size_t kSamples = 250;  ///< of each photograph: a search without derivatives asks for them often
+constexpr unsigned long kSeed = 20261122;
+constexpr double kTolerance = 1e-5;   ///< relative, of the sd
+constexpr double kHopeless_mm = 1e6;  ///< for parameters that no surface can have
+
+/// Which parameters a search moves, each in units of its prior's sigma (pose: mm and hundredths of a radian), so that
+/// the first directions are sensible.
+struct Place {
+  Block block;
+  int index;
+  double unit;
+};
+
+std::vector<Place> Places(const RigFit& fit, Free free) {
+  std::vector<Place> places;
+  for (int i = 0; i < 6; ++i) places.push_back({kPoseBlock, i, i < 3 ? 0.01 : 2.0});
+  if (free == Free::kPose) return places;
+  for (const Prior& prior : Priors(fit.nominal(), fit.law(), true)) {
+    if (prior.block == kCameraBlock && free != Free::kAll) continue;
+    if (prior.block == kProjectorBlock && prior.index == 7) continue;  // the mean of the differences
+    // The angular law does not know the projector's place along the stripes.
+    if (fit.law().kind == ProjectorModel::Kind::kAngular && prior.block == kProjectorBlock &&
+        prior.index == 1 - fit.law().axis) {
+      continue;
+    }
+    places.push_back({prior.block, prior.index, 0.2 * prior.sigma});
+  }
+  return places;
+}
+
+class Search {
+ public:
+  Search(RigFit& fit, Free free, bool each_its_mean, const SolveOptions& options)
+      : fit_(fit), places_(Places(fit, free)), each_its_mean_(each_its_mean), options_(options) {}
+
+  /// False when NLopt failed or nothing was found. The fit has the best parameters.
+  bool Run(int evaluations, double share_before, double share_after) {
+    evaluations_ = evaluations;
+    share_before_ = share_before;
+    share_after_ = share_after;
+    start_ = fit_.parameters();
+    best_sd_ = kHopeless_mm;
+    best_ = start_;
+    try {
+      nlopt::srand(kSeed);  // PRAXIS takes random steps
+      nlopt::opt search(nlopt::LN_PRAXIS, static_cast<unsigned>(places_.size()));
+      search.set_min_objective([](const std::vector<double>& x, std::vector<double>&,
+                                  void* self) { return static_cast<Search*>(self)->Objective(x); },
+                               this);
+      search.set_ftol_rel(kTolerance);
+      search.set_maxeval(evaluations);
+      search.set_initial_step(1.0);
+      std::vector<double> x(places_.size(), 0.0);
+      double sd = 0;
+      search.optimize(x, sd);
+    } catch (const std::exception&) {  // rounding limits end PRAXIS, too: what counts is what it found
+    }
+    fit_.parameters() = best_;
+    return best_sd_ < kHopeless_mm;
+  }
+
+  /// Puts the mean of the differences into the offsets (each photograph's, or the central order for all).
+  void AdoptMeans() {
+    double sum = 0, count = 0;
+    for (std::size_t v = 0; v < fit_.offsets().size(); ++v) {
+      const std::vector<double> d = fit_.Differences(v);
+      double own = 0;
+      for (const double value : d) own += value;
+      if (each_its_mean_ && !d.empty()) fit_.offsets()[v] -= own / static_cast<double>(d.size());
+      sum += own;
+      count += static_cast<double>(d.size());
+    }
+    if (!each_its_mean_ && count > 0) fit_.parameters().projector[7] += sum / count;
+  }
+
+ private:
+  double Objective(const std::vector<double>& x) {
+    RigParameters trial = start_;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      BlockOf(trial, places_[i].block)[places_[i].index] += places_[i].unit * x[i];
+    }
+    double squares = 0, sum = 0, count = 0;
+    for (std::size_t v = 0; v < fit_.offsets().size(); ++v) {
+      const std::vector<double> d = fit_.DepthDifferences(trial, v, fit_.offsets()[v]);
+      double own = 0;
+      for (const double value : d) own += value;
+      const double mean = each_its_mean_ && !d.empty() ? own / static_cast<double>(d.size()) : 0;
+      for (const double value : d) squares += (value - mean) * (value - mean);
+      sum += own;
+      count += static_cast<double>(d.size());
+    }
+    const double mean = each_its_mean_ ? 0 : sum / count;
+    const double sd = std::sqrt(std::max(0.0, squares / count - mean * mean));
+    if (++asked_ % 100 == 0 && options_.progress) {
+      options_.progress(share_before_ + (share_after_ - share_before_) * asked_ / evaluations_,
+                        "Powell's method, sd " + std::to_string(best_sd_) + " mm");
+    }
+    if (!std::isfinite(sd)) return kHopeless_mm;
+    if (sd < best_sd_) {
+      best_sd_ = sd;
+      best_ = trial;
+    }
+    return sd;
+  }
+
+  RigFit& fit_;
+  std::vector<Place> places_;
+  bool each_its_mean_;
+  const SolveOptions& options_;
+  RigParameters start_, best_;
+  double best_sd_ = kHopeless_mm;
+  double share_before_ = 0, share_after_ = 1;
+  int asked_ = 0, evaluations_ = 1;
+};
+
+}  // namespace
+
+Result<Solved> SolveByPowell(RigFit& fit, const SolveOptions& options) {
+  const auto failed = [] {
+    return Fail(ErrorCode::kBadCalibration,
+                "these photographs cannot calibrate the rig: Powell's method found no surface; check the mesh's unit "
+                "and axes, or leave out --optimizer powell");
+  };
+  fit.SelectSamples(kSamples);
+  fit.GuessOffsets();
+  constexpr struct {
+    Free free;
+    int evaluations;
+    double share;
+  } kStages[] = {{Free::kPose, 800, 0.05}, {Free::kPoseSlideProjector, 3000, 0.2}, {Free::kAll, 6000, 0.5}};
+  double share = 0;
+  for (const auto& stage : kStages) {
+    Search search(fit, stage.free, true, options);
+    if (!search.Run(stage.evaluations, share, stage.share)) return failed();
+    search.AdoptMeans();
+    fit.SelectSamples(kSamples);
+    share = stage.share;
+  }
+  Solved solved;
+  solved.sd_free = fit.Spread();
+  const Settled settled = SettleOffsets(fit.offsets());
+  solved.distances = settled.distance;
+  fit.offsets() = settled.whole;
+  fit.parameters().projector[7] -= settled.fraction;
+  if (!RefineByPowell(fit, options)) return failed();
+  solved.sd_fixed = fit.Spread();
+  return solved;
+}
+
+bool RefineByPowell(RigFit& fit, const SolveOptions& options) {
+  fit.SelectSamples(kSamples);
+  Search search(fit, Free::kAll, false, options);
+  if (!search.Run(8000, 0.5, 1)) return false;
+  search.AdoptMeans();
+  return true;
+}
+
+}  // namespace striae::reconstruct::detail
