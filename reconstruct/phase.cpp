@@ -51,20 +51,19 @@ Result<Chosen> ChooseDirection(const Photograph& photograph, std::optional<Strip
 
 /// One thread's memory for a block of lines.
 struct BlockMemory {
-  BlockMemory(const LineAnalysis& analysis, int length, int reach)
+  BlockMemory(const LineAnalysis& analysis, int length)
       : scratch(analysis),
         light(Count(length)),
         phase(Count(length)),
         amplitude(Count(length)),
         background(Count(length)),
-        modulation(Count(length)),
-        maximum(Count(length + 2 * reach)),
         mask(Count(length)) {}
   static std::size_t Count(int length) { return static_cast<std::size_t>(length) * kLanes; }
   LineAnalysis::Signal Signal() { return {phase.data(), amplitude.data(), background.data()}; }
 
   LineAnalysis::Scratch scratch;
-  Lanes<float> light, phase, amplitude, background, modulation, maximum, falling;
+  Lanes<float> light;  ///< its place is taken by the modulation once it is analysed
+  Lanes<float> phase, amplitude, background, groups, maximum, falling;
   Lanes<std::uint8_t> mask;
   Lanes<std::uint16_t> runs;
 };
@@ -72,7 +71,7 @@ struct BlockMemory {
 /// Upper quartile of the modulation over the sampled pixels whose amplitude is above the noise.
 float WellLitModulation(const LineAnalysis& analysis, const SampledLines& samples, float least_amplitude) {
   constexpr std::size_t kStep = 3;  // of the sampled pixels
-  BlockMemory memory(analysis, samples.length, 0);
+  BlockMemory memory(analysis, samples.length);
   std::vector<float> modulations;
   for (const Lanes<float>& light : samples.blocks) {
     analysis(light.data(), memory.Signal(), memory.scratch);
@@ -100,10 +99,30 @@ detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const SampledLines& sa
   return limits;
 }
 
+/// The plateau is looked for among the largest of a few neighbours: the amplitude does not change faster.
+struct Plateau {
+  explicit Plateau(double period_px)
+      : group(period_px >= 12 ? 4 : 1), reach(static_cast<int>(std::lround(1.5 * period_px / group))) {}
+  int group, reach;  ///< pixels; groups on either side
+};
+
+void AnalyseBlock(const LineAnalysis& analysis, const detail::MaskLimits& limits, const Plateau& plateau, int length,
+                  BlockMemory& m) {
+  analysis(m.light.data(), m.Signal(), m.scratch);
+  const int groups = (length + plateau.group - 1) / plateau.group;
+  m.groups.resize(BlockMemory::Count(groups));
+  m.maximum.resize(BlockMemory::Count(groups + 2 * plateau.reach));
+  detail::GroupMaximum(m.amplitude.data(), length, plateau.group, m.groups.data());
+  detail::LaneMaximum(m.groups.data(), groups, plateau.reach, m.maximum.data(), m.falling);
+  detail::JudgeLanes(m.amplitude.data(), m.background.data(), m.maximum.data(), length, plateau.group, plateau.reach,
+                     limits, m.light.data(), m.mask.data());
+  detail::DropShortRuns(m.mask.data(), length, limits.least_run_px, m.runs);
+}
+
 /// Fills the images of `result` and the wrapped phase, block by block; each block stays in the processor's cache.
 void AnalyseBlocks(const Photograph& photograph, const LineLayout& layout, const LineAnalysis& analysis,
                    const detail::MaskLimits& limits, ImageF& wrapped, PhaseResult& result) {
-  const int reach = static_cast<int>(std::lround(1.5 * result.carrier_period_px));  // of the plateau around a pixel
+  const Plateau plateau(result.carrier_period_px);
   const auto threads = static_cast<std::size_t>(detail::ThreadCount());
   std::vector<std::unique_ptr<BlockMemory>> memories(threads);
   std::vector<std::size_t> saturated(threads, 0);
@@ -111,22 +130,18 @@ void AnalyseBlocks(const Photograph& photograph, const LineLayout& layout, const
       layout.blocks(),
       [&](int thread, int first, int last) {
         const auto t = static_cast<std::size_t>(thread);
-        if (!memories[t]) memories[t] = std::make_unique<BlockMemory>(analysis, layout.length(), reach);
+        if (!memories[t]) memories[t] = std::make_unique<BlockMemory>(analysis, layout.length());
         BlockMemory& m = *memories[t];
         for (int block = first; block < last; ++block) {
           layout.Load(photograph.luminance, block, m.light.data());
           saturated[t] +=
               detail::CountAtLeast(m.light.data(), layout.length(), layout.LanesOf(block), photograph.saturation_level);
           if (!photograph.linear) detail::DecodeSrgb(m.light.data(), m.light.size());
-          analysis(m.light.data(), m.Signal(), m.scratch);
-          detail::LaneMaximum(m.amplitude.data(), layout.length(), reach, m.maximum.data(), m.falling);
-          detail::JudgeLanes(m.amplitude.data(), m.background.data(), m.maximum.data(), layout.length(), reach, limits,
-                             m.modulation.data(), m.mask.data());
-          detail::DropShortRuns(m.mask.data(), layout.length(), limits.least_run_px, m.runs);
+          AnalyseBlock(analysis, limits, plateau, layout.length(), m);
           layout.Store(m.phase.data(), block, wrapped);
           layout.Store(m.amplitude.data(), block, result.amplitude);
           layout.Store(m.background.data(), block, result.background);
-          layout.Store(m.modulation.data(), block, result.modulation);
+          layout.Store(m.light.data(), block, result.modulation);
           layout.Store(m.mask.data(), block, result.mask);
         }
       },
@@ -167,7 +182,7 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
     return Fail(ErrorCode::kNoCarrier,
                 "the stripes are too faint everywhere to carry phase; check flash, ISO and distance");
   }
-  result.unwrapped = Unwrap(wrapped, result.mask);
+  result.unwrapped = Unwrap(std::move(wrapped), result.mask);
   return result;
 }
 

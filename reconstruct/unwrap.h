@@ -19,7 +19,7 @@ struct Unwrapped {
 /// sum of both pixels' D, where D is the sum of squared second differences over the eight neighbours (scikit-image's
 /// form; the paper's R = 1/D orders the pixels alike). Pixels beside the mask's rim are the least reliable. Equal edges
 /// keep their order in the image, so the result does not depend on anything but the input.
-/// `wrapped` in rad within [-pi, pi]; sizes must agree (std::logic_error).
-Unwrapped Unwrap(const ImageF& wrapped, const Mask& mask);
+/// `wrapped` (given up to the result when moved in) in rad within [-pi, pi]; sizes must agree (std::logic_error).
+Unwrapped Unwrap(ImageF wrapped, const Mask& mask);
 
 }  // namespace striae::reconstruct

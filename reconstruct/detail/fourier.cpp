@@ -60,7 +60,7 @@ LineAnalysis::LineAnalysis(int length, double period_px, double half_width)
 
 LineAnalysis::Scratch::Scratch(const LineAnalysis& analysis)
     : lines(RealArray(analysis.length_ * kLanes)),
-      results(RealArray(2 * analysis.length_ * kLanes)),
+      amplitudes(RealArray(analysis.length_ * kLanes)),
       real(RealArray(analysis.padded_)),
       spectrum(ComplexArray(analysis.padded_)),
       signal(ComplexArray(analysis.padded_)),
@@ -77,7 +77,8 @@ void LineAnalysis::operator()(const float* light, const Signal& out, Scratch& sc
   BoxMean(light, scratch.once.data(), length_, period_px_);
   BoxMean(scratch.once.data(), out.background, length_, period_px_);
   SubtractToLines(light, out.background, length_, scratch.lines.get(), stride);
-  float *phases = scratch.results.get(), *amplitudes = phases + stride * kLanes;
+  float *phases = scratch.lines.get(),
+        *amplitudes = scratch.amplitudes.get();  // a line is done with when it is transformed
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     Transform(scratch.lines.get() + lane * stride, scratch);
     fftwf_complex *spectrum = scratch.spectrum.get(), *band = scratch.signal.get();

@@ -21,7 +21,7 @@ class LineAnalysis {
 
    private:
     friend class LineAnalysis;
-    FftwArray<float> lines, results;  ///< kLanes rows of length_
+    FftwArray<float> lines, amplitudes;  ///< kLanes rows of length_
     FftwArray<float> real;
     FftwArray<fftwf_complex> spectrum, signal;
     Lanes<float> once;

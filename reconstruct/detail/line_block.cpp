@@ -112,22 +112,38 @@ STRIAE_VECTORISED void LaneMaximum(const float* in, int length, int reach, float
   }
 }
 
+STRIAE_VECTORISED void GroupMaximum(const float* in, int length, int group, float* out) {
+  for (int first = 0; first < length; first += group) {
+    Floats largest = STRIAE_LANES(const Floats, in + At(first));
+    for (int i = first + 1; i < std::min(first + group, length); ++i) {
+      const Floats value = STRIAE_LANES(const Floats, in + At(i));
+      largest = value > largest ? value : largest;
+    }
+    STRIAE_LANES(Floats, out + At(first / group)) = largest;
+  }
+}
+
 STRIAE_VECTORISED void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length,
-                                  int reach, const MaskLimits& limits, float* modulation, std::uint8_t* mask) {
+                                  int group, int reach, const MaskLimits& limits, float* modulation,
+                                  std::uint8_t* mask) {
   const Floats one = Floats{} + 1.0F, least = Floats{} + 1e-6F;
   const Floats share = Floats{} + limits.least_share, between = Floats{} + limits.least_share_between;
-  for (int i = 0; i < length; ++i) {
-    const Floats a = STRIAE_LANES(const Floats, amplitude + At(i)), b = STRIAE_LANES(const Floats, background + At(i));
+  for (int first = 0, g = 0; first < length; first += group, ++g) {
     // The maxima within `reach` around the place, and within twice of it before and after.
-    const Floats around = STRIAE_LANES(const Floats, maximum + At(i + reach));
-    const Floats before = STRIAE_LANES(const Floats, maximum + At(i));
-    const Floats after = STRIAE_LANES(const Floats, maximum + At(i + 2 * reach));
+    const Floats around = STRIAE_LANES(const Floats, maximum + At(g + reach));
+    const Floats before = STRIAE_LANES(const Floats, maximum + At(g));
+    const Floats after = STRIAE_LANES(const Floats, maximum + At(g + 2 * reach));
     const Floats lower = before < after ? before : after;
-    const Floats needed = (lower > share * around ? between : share) * around;
-    const Ints kept = (a > limits.least_amplitude) & (a > needed) & (a > limits.least_modulation * b);
-    const Floats ratio = a / (b > least ? b : least);
-    STRIAE_LANES(Floats, modulation + At(i)) = ratio < one ? ratio : one;
-    STRIAE_LANES(Bytes, mask + At(i)) = __builtin_convertvector(-kept, Bytes);
+    const Floats shaded = (lower > share * around ? between : share) * around;
+    const Floats needed = shaded > limits.least_amplitude ? shaded : Floats{} + limits.least_amplitude;
+    for (int i = first; i < std::min(first + group, length); ++i) {
+      const Floats a = STRIAE_LANES(const Floats, amplitude + At(i));
+      const Floats b = STRIAE_LANES(const Floats, background + At(i));
+      const Ints kept = (a > needed) & (a > limits.least_modulation * b);
+      const Floats ratio = a / (b > least ? b : least);
+      STRIAE_LANES(Floats, modulation + At(i)) = ratio < one ? ratio : one;
+      STRIAE_LANES(Bytes, mask + At(i)) = __builtin_convertvector(-kept, Bytes);
+    }
   }
 }
 

@@ -55,9 +55,13 @@ class LineLayout {
   }
   template <typename T>
   void Store(const T* lanes, int block, Image<T>& image) const {
-    const int first = block * kLanes, count = Last(block) - first;
+    const int first = block * kLanes, count = LanesOf(block);
     for (int position = 0; position < length(); ++position) {
       const T* from = lanes + static_cast<std::size_t>(position) * kLanes;
+      if (along_columns_ && count == kLanes) {
+        std::copy_n(from, kLanes, image.Row(position) + first);
+        continue;
+      }
       for (int lane = 0; lane < count; ++lane) {
         (along_columns_ ? image(first + lane, position) : image(position, first + lane)) = from[lane];
       }
@@ -89,6 +93,9 @@ void LinesToLanes(const float* in, std::size_t stride, int length, float* out);
 /// long as it needs to be.
 void LaneMaximum(const float* in, int length, int reach, float* out, Lanes<float>& scratch);
 
+/// Largest value of every `group` neighbouring positions; out has ceil(length / group) * kLanes values.
+void GroupMaximum(const float* in, int length, int group, float* out);
+
 /// What the mask asks of a pixel, besides its neighbourhood.
 struct MaskLimits {
   float least_amplitude = 0;      ///< against the noise
@@ -98,9 +105,9 @@ struct MaskLimits {
   int least_run_px = 1;           ///< along the line
 };
 
-/// modulation = amplitude / background within 0..1; mask = 1 where the limits hold. `maximum` is LaneMaximum's, with
-/// that reach.
-void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length, int reach,
+/// modulation = amplitude / background within 0..1; mask = 1 where the limits hold. `maximum` is LaneMaximum's over
+/// groups of `group` positions, with that reach (in groups).
+void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length, int group, int reach,
                 const MaskLimits& limits, float* modulation, std::uint8_t* mask);
 
 /// Takes out runs of valid pixels shorter than `least` along each lane.

@@ -2,50 +2,75 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstring>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "reconstruct/detail/parallel.h"
+#include "reconstruct/detail/vector.h"
 
 namespace striae::reconstruct::detail {
 namespace {
 
-/// 3 x 3 erosion or dilation; the image's border repeats.
-Mask Morphed(const Mask& mask, bool erode) {
+/// The three pixels above each other: all of them, or any.
+STRIAE_VECTORISED void CombineRows(const std::uint8_t* up, const std::uint8_t* at, const std::uint8_t* down, int width,
+                                   bool all, std::uint8_t* out) {
+  if (all) {
+    for (int x = 0; x < width; ++x) out[x] = up[x] & at[x] & down[x];
+  } else {
+    for (int x = 0; x < width; ++x) out[x] = up[x] | at[x] | down[x];
+  }
+}
+
+/// 3 x 3 erosion (all) or dilation; the image's border repeats.
+Mask Morphed(const Mask& mask, bool all) {
   const int width = mask.width(), height = mask.height();
-  Mask out(width, height);
-  const auto combine = [erode](int a, int b, int c) {
-    return static_cast<std::uint8_t>(erode ? (a & b & c) : (a | b | c));
-  };
+  Mask out = Mask::Unset(width, height);
   ParallelBlocks(height, [&](int, int begin, int end) {
     std::vector<std::uint8_t> column(static_cast<std::size_t>(width) + 2);  // of three; one more at either end
     for (int row = begin; row < end; ++row) {
-      const std::uint8_t *up = mask.Row(std::max(0, row - 1)), *at = mask.Row(row),
-                         *down = mask.Row(std::min(height - 1, row + 1));
-      for (int x = 0; x < width; ++x) column[static_cast<std::size_t>(x) + 1] = combine(up[x], at[x], down[x]);
+      CombineRows(mask.Row(std::max(0, row - 1)), mask.Row(row), mask.Row(std::min(height - 1, row + 1)), width, all,
+                  column.data() + 1);
       column.front() = column[1];
       column.back() = column[column.size() - 2];
-      std::uint8_t* to = out.Row(row);
-      const std::uint8_t* from = column.data();
-      for (int x = 0; x < width; ++x) to[x] = combine(from[x], from[x + 1], from[x + 2]);
+      CombineRows(column.data(), column.data() + 1, column.data() + 2, width, all, out.Row(row));
     }
   });
   return out;
+}
+
+STRIAE_VECTORISED void CutStepsOfRow(const float* up, const float* at, const float* down, int width, float largest,
+                                     std::uint8_t* mask) {
+  constexpr float kTurn = 2 * std::numbers::pi_v<float>;
+  const auto wrap = [](float d) {  // |d| < 2 pi: both phases are wrapped
+    d = d > kTurn / 2 ? d - kTurn : d;
+    return d < -kTurn / 2 ? d + kTurn : d;
+  };
+  for (int x = 1; x + 1 < width; ++x) {
+    const float h = wrap(at[x - 1] - at[x]) - wrap(at[x] - at[x + 1]);
+    const float v = wrap(up[x] - at[x]) - wrap(at[x] - down[x]);
+    const bool smooth = (std::abs(h) <= largest) & (std::abs(v) <= largest);
+    mask[x] = smooth ? mask[x] : std::uint8_t{0};
+  }
 }
 
 struct Run {
   int first, last;  ///< pixels [first, last) of a row
 };
 
+const std::uint8_t* Find(const std::uint8_t* begin, const std::uint8_t* end, int value) {
+  const void* found = std::memchr(begin, value, static_cast<std::size_t>(end - begin));
+  return found != nullptr ? static_cast<const std::uint8_t*>(found) : end;
+}
+
 std::vector<std::vector<Run>> RunsOf(const Mask& mask) {
   std::vector<std::vector<Run>> runs(static_cast<std::size_t>(mask.height()));
   ParallelLines(mask.height(), [&](int row) {
     const std::uint8_t *begin = mask.Row(row), *end = begin + mask.width();
     for (const std::uint8_t* at = begin; at != end;) {
-      at = std::find(at, end, std::uint8_t{1});
-      const std::uint8_t* stop = std::find(at, end, std::uint8_t{0});
+      at = Find(at, end, 1);
+      const std::uint8_t* stop = Find(at, end, 0);
       if (at != stop)
         runs[static_cast<std::size_t>(row)].push_back({static_cast<int>(at - begin), static_cast<int>(stop - begin)});
       at = stop;
@@ -119,21 +144,10 @@ void CleanMask(Mask& mask, int least_px) {
 }
 
 void CutSteps(const ImageF& wrapped, Mask& mask, float largest) {
-  const int width = wrapped.width(), height = wrapped.height();
-  const auto wrap = [](float d) {
-    constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
-    return d - kTwoPi * std::nearbyint(d / kTwoPi);
-  };
-  ParallelLines(height, [&](int row) {
-    if (row == 0 || row == height - 1) return;
-    const float *up = wrapped.Row(row - 1), *at = wrapped.Row(row), *down = wrapped.Row(row + 1);
-    std::uint8_t* m = mask.Row(row);
-    for (int x = 1; x + 1 < width; ++x) {
-      if (m[x] == 0) continue;
-      const float h = wrap(at[x - 1] - at[x]) - wrap(at[x] - at[x + 1]);
-      const float v = wrap(up[x] - at[x]) - wrap(at[x] - down[x]);
-      if (std::abs(h) > largest || std::abs(v) > largest) m[x] = 0;
-    }
+  ParallelLines(wrapped.height(), [&](int row) {
+    if (row == 0 || row == wrapped.height() - 1) return;
+    CutStepsOfRow(wrapped.Row(row - 1), wrapped.Row(row), wrapped.Row(row + 1), wrapped.width(), largest,
+                  mask.Row(row));
   });
 }
 

@@ -14,8 +14,8 @@ constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
 /// Whole turns in the difference of two wrapped phases, at most one: -1, 0 or 1. Antisymmetric.
 inline int TurnsIn(float difference) {
-  const float turns = difference / kTurn;
-  return static_cast<int>(turns > 0.5F) - static_cast<int>(turns < -0.5F);
+  constexpr float kHalf = kTurn / 2;
+  return static_cast<int>(difference > kHalf) - static_cast<int>(difference < -kHalf);
 }
 
 /// Turns to add on the way from a pixel to its neighbour.

@@ -5,23 +5,29 @@
 #include <utility>
 
 #include "reconstruct/detail/parallel.h"
+#include "reconstruct/detail/vector.h"
 
 namespace striae::reconstruct::detail {
 namespace {
 
-using Bytes = std::vector<std::int8_t>;
-
-/// Steps to the right neighbour along a row; 0 where the edge is missing.
-void StepsRight(const float* phase, const std::uint8_t* mask, int width, Bytes& steps) {
-  for (int x = 0; x + 1 < width; ++x) {
-    steps[static_cast<std::size_t>(x)] =
-        static_cast<std::int8_t>(StepBetween(phase[x], phase[x + 1]) * (mask[x] & mask[x + 1]));
+/// Steps from every pixel of a row to another one's beside or below it; 0 where the edge is missing.
+STRIAE_VECTORISED void StepsTo(const float* phase, const std::uint8_t* mask, const float* other,
+                               const std::uint8_t* other_mask, int count, std::int8_t* steps) {
+  for (int x = 0; x < count; ++x) {
+    const auto edge = static_cast<std::int8_t>(mask[x] & other_mask[x]);
+    steps[x] = static_cast<std::int8_t>(edge * static_cast<std::int8_t>(StepBetween(phase[x], other[x])));
   }
+}
+
+/// Turns by which the way around the faces below a row does not close.
+STRIAE_VECTORISED void Curl(const std::int8_t* above, const std::int8_t* below, const std::int8_t* down, int count,
+                            std::int8_t* curl) {
+  for (int x = 0; x < count; ++x) curl[x] = static_cast<std::int8_t>(above[x] + down[x + 1] - below[x] - down[x]);
 }
 
 /// Calls visit(index) where a value is not 0, eight at a time. `bytes` is padded to whole words with zeros.
 template <typename Visit>
-void ForEachSet(const Bytes& bytes, const Visit& visit) {
+void ForEachSet(const std::vector<std::int8_t>& bytes, const Visit& visit) {
   for (std::size_t i = 0; i < bytes.size(); i += 8) {
     std::uint64_t word;
     std::memcpy(&word, bytes.data() + i, sizeof word);
@@ -33,40 +39,69 @@ void ForEachSet(const Bytes& bytes, const Visit& visit) {
 
 }  // namespace
 
-void Faces::ScanRow(const ImageF& wrapped, const Mask& mask, int row, std::vector<Run>& runs,
-                    std::vector<Residue>& residues) {
-  const int width = mask.width();
-  const auto padded = (static_cast<std::size_t>(width) + 7) / 8 * 8;
-  thread_local Bytes above, below, down, curl;
-  for (Bytes* bytes : {&above, &below, &down, &curl}) bytes->assign(padded, 0);
-  const float *a = wrapped.Row(row), *b = wrapped.Row(row + 1);
-  const std::uint8_t *ma = mask.Row(row), *mb = mask.Row(row + 1);
-  StepsRight(a, ma, width, above);
-  StepsRight(b, mb, width, below);
-  for (int x = 0; x < width; ++x) {
-    down[static_cast<std::size_t>(x)] = static_cast<std::int8_t>(StepBetween(a[x], b[x]) * (ma[x] & mb[x]));
+/// The steps along two rows and between them, kept from row to row.
+class Faces::Scanner {
+ public:
+  Scanner(const ImageF& wrapped, const Mask& mask)
+      : wrapped_(wrapped), mask_(mask), padded_((static_cast<std::size_t>(mask.width()) + 7) / 8 * 8) {
+    for (auto* bytes : {&above_, &below_, &down_, &curl_}) bytes->assign(padded_, 0);
   }
-  for (std::size_t x = 0; x + 1 < static_cast<std::size_t>(width); ++x) {
-    curl[x] = static_cast<std::int8_t>(above[x] + down[x + 1] - below[x] - down[x]);
+
+  /// Rows must be asked for in ascending order, without gaps.
+  void Scan(int row, std::vector<Run>& runs, std::vector<Residue>& residues) {
+    const int width = mask_.width();
+    const std::uint8_t *ma = mask_.Row(row), *mb = mask_.Row(row + 1);
+    if (scanned_ != row) StepsRight(row, above_);
+    StepsRight(row + 1, below_);
+    StepsTo(wrapped_.Row(row), ma, wrapped_.Row(row + 1), mb, width, down_.data());
+    Curl(above_.data(), below_.data(), down_.data(), width - 1, curl_.data());
+    ForEachSet(curl_, [&](int x) { residues.push_back({x, curl_[static_cast<std::size_t>(x)]}); });
+    std::swap(above_, below_);
+    scanned_ = row + 1;
+    FindRuns(ma, mb, runs);
   }
-  ForEachSet(curl, [&](int x) { residues.push_back({x, curl[static_cast<std::size_t>(x)]}); });
-  // A missing edge downwards at x joins the faces x - 1 and x.
-  for (int x = 0; x < width;) {
-    while (x < width && (ma[x] & mb[x]) != 0) ++x;
-    const int first = x;
-    while (x < width && (ma[x] & mb[x]) == 0) ++x;
-    if (x > first) runs.push_back({first - 1, x - 1});
+
+ private:
+  void StepsRight(int row, std::vector<std::int8_t>& steps) {
+    const float* phase = wrapped_.Row(row);
+    const std::uint8_t* mask = mask_.Row(row);
+    StepsTo(phase, mask, phase + 1, mask + 1, mask_.width() - 1, steps.data());
   }
-}
+  /// A missing edge downwards at x joins the faces x - 1 and x.
+  void FindRuns(const std::uint8_t* ma, const std::uint8_t* mb, std::vector<Run>& runs) {
+    const int width = mask_.width();
+    both_.resize(static_cast<std::size_t>(width));
+    for (std::size_t x = 0; x < both_.size(); ++x) both_[x] = ma[x] & mb[x];
+    const std::uint8_t *begin = both_.data(), *end = begin + width;
+    for (const std::uint8_t* at = begin; at != end;) {
+      const auto* first = static_cast<const std::uint8_t*>(std::memchr(at, 0, static_cast<std::size_t>(end - at)));
+      if (first == nullptr) break;
+      const auto* last = static_cast<const std::uint8_t*>(std::memchr(first, 1, static_cast<std::size_t>(end - first)));
+      if (last == nullptr) last = end;
+      runs.push_back({static_cast<int>(first - begin) - 1, static_cast<int>(last - begin) - 1});
+      at = last;
+    }
+  }
+
+  const ImageF& wrapped_;
+  const Mask& mask_;
+  std::size_t padded_;
+  int scanned_ = -1;  ///< row whose steps to the right are in above_
+  std::vector<std::int8_t> above_, below_, down_, curl_;
+  std::vector<std::uint8_t> both_;
+};
 
 Faces::Faces(const ImageF& wrapped, const Mask& mask, std::size_t most_residues)
     : width_(mask.width()), height_(mask.height()) {
   const auto rows = static_cast<std::size_t>(std::max(0, height_ - 1));
   std::vector<std::vector<Run>> runs(rows);
   std::vector<std::vector<Residue>> residues(rows);
-  ParallelLines(static_cast<int>(rows), [&](int row) {
-    const auto at = static_cast<std::size_t>(row);
-    ScanRow(wrapped, mask, row, runs[at], residues[at]);
+  ParallelBlocks(static_cast<int>(rows), [&](int, int first, int last) {
+    Scanner scanner(wrapped, mask);
+    for (int row = first; row < last; ++row) {
+      const auto at = static_cast<std::size_t>(row);
+      scanner.Scan(row, runs[at], residues[at]);
+    }
   });
   std::size_t count = 0;
   for (const auto& row : residues) count += row.size();

@@ -43,8 +43,7 @@ class Faces {
     int x;
     std::int32_t charge;
   };
-  static void ScanRow(const ImageF& wrapped, const Mask& mask, int row, std::vector<Run>& runs,
-                      std::vector<Residue>& residues);
+  class Scanner;
   void JoinRuns(const std::vector<std::vector<Run>>& runs, const Mask& mask);
   std::int32_t Root(std::int32_t node);
   void Unite(std::int32_t a, std::int32_t b);

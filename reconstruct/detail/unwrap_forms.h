@@ -21,7 +21,8 @@ Unwrapped UnwrapByKruskal(const ImageF& wrapped, const Mask& mask);
 /// joins are one. nullopt when more than `budget` edges would be looked at: with noise everywhere Kruskal is faster.
 std::optional<std::vector<std::uint32_t>> FindCuts(const ImageF& wrapped, const Mask& mask, std::size_t budget);
 
-/// Unwraps along rows and joins the rows where no edge is cut. `cuts`: edges as unwrap_edges.h numbers them.
-Unwrapped UnwrapBetweenCuts(const ImageF& wrapped, const Mask& mask, const std::vector<std::uint32_t>& cuts);
+/// In the place of the wrapped phase. Unwraps along rows and joins the rows where no edge is cut. `cuts`: edges as
+/// unwrap_edges.h numbers them.
+Unwrapped UnwrapBetweenCuts(ImageF wrapped, const Mask& mask, const std::vector<std::uint32_t>& cuts);
 
 }  // namespace striae::reconstruct::detail

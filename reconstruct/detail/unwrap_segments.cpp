@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "reconstruct/detail/parallel.h"
 #include "reconstruct/detail/unwrap_edges.h"
@@ -125,19 +126,26 @@ class Rows {
 
 }  // namespace
 
-Unwrapped UnwrapBetweenCuts(const ImageF& wrapped, const Mask& mask, const std::vector<std::uint32_t>& cuts) {
+Unwrapped UnwrapBetweenCuts(ImageF wrapped, const Mask& mask, const std::vector<std::uint32_t>& cuts) {
   Rows rows(wrapped, mask, cuts);
-  Unwrapped out{ImageF(wrapped.width(), wrapped.height(), std::numeric_limits<float>::quiet_NaN()),
-                Image<std::int32_t>(wrapped.width(), wrapped.height(), -1), rows.Settle()};
-  ParallelLines(wrapped.height(), [&](int row) {
-    const float* in = wrapped.Row(row);
+  const int width = wrapped.width(), height = wrapped.height(), regions = rows.Settle();
+  Unwrapped out{std::move(wrapped), Image<std::int32_t>::Unset(width, height), regions};
+  ParallelLines(height, [&](int row) {
     float* phase = out.phase.Row(row);
     std::int32_t* region = out.region.Row(row);
+    int done = 0;
+    const auto leave_out = [&](int until) {
+      std::fill(phase + done, phase + until, std::numeric_limits<float>::quiet_NaN());
+      std::fill(region + done, region + until, -1);
+    };
     for (const Segment& segment : rows.Of(row)) {
+      leave_out(segment.first);
       const float turns = kTurn * static_cast<float>(segment.turns);
-      for (int x = segment.first; x < segment.last; ++x) phase[x] = in[x] + turns;
+      for (int x = segment.first; x < segment.last; ++x) phase[x] += turns;
       std::fill(region + segment.first, region + segment.last, segment.region);
+      done = segment.last;
     }
+    leave_out(width);
   });
   return out;
 }
