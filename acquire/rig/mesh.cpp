@@ -39,6 +39,18 @@ void ComputeNormals(TriangleMesh& mesh) {
 
 void Append(const TriangleMesh& part, TriangleMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertex.size());
+  if (!part.texture.empty() || !mesh.texture.empty()) {
+    const int first_texture = static_cast<int>(mesh.texture.size());
+    mesh.uv.resize(mesh.vertex.size(), Eigen::Vector2f::Zero());
+    mesh.texture_of_triangle.resize(mesh.triangle.size(), -1);
+    mesh.uv.insert(mesh.uv.end(), part.uv.begin(), part.uv.end());
+    for (const int texture : part.texture_of_triangle) {
+      mesh.texture_of_triangle.push_back(texture < 0 ? -1 : texture + first_texture);
+    }
+    mesh.uv.resize(mesh.vertex.size() + part.vertex.size(), Eigen::Vector2f::Zero());
+    mesh.texture_of_triangle.resize(mesh.triangle.size() + part.triangle.size(), -1);
+    mesh.texture.insert(mesh.texture.end(), part.texture.begin(), part.texture.end());
+  }
   mesh.vertex.insert(mesh.vertex.end(), part.vertex.begin(), part.vertex.end());
   mesh.normal.insert(mesh.normal.end(), part.normal.begin(), part.normal.end());
   mesh.albedo.insert(mesh.albedo.end(), part.albedo.begin(), part.albedo.end());

@@ -4,9 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "core/image.h"
 
 namespace striae::rig {
 
@@ -25,8 +28,12 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<Eigen::Vector3d> normal;  ///< unit, out of the body; used for shading only, the truth is the facets
   std::vector<Eigen::Vector3f> albedo;  ///< linear RGB, 0..1
-  std::vector<std::array<std::uint32_t, 3>> triangle;  ///< counter-clockwise seen from outside
-  std::vector<Decal> decal;                            ///< painted over the albedo, the last one on top
+  std::vector<std::array<std::uint32_t, 3>> triangle;    ///< counter-clockwise seen from outside
+  std::vector<std::shared_ptr<const ImageRgb>> texture;  ///< sRGB pictures that multiply the albedo
+  std::vector<Eigen::Vector2f> uv;                       ///< of every vertex: (0, 0) upper left, (1, 1) lower right of
+                                                         ///< its picture, repeated beyond; empty without textures
+  std::vector<int> texture_of_triangle;                  ///< index, -1 for none; empty without textures
+  std::vector<Decal> decal;                              ///< painted over the albedo, the last one on top
 };
 
 /// Joins `columns` x `rows` vertices, stored row by row from index `first`, to triangles; `closed` also joins the last
@@ -36,7 +43,7 @@ void AppendGridTriangles(std::size_t first, int columns, int rows, bool closed, 
 /// Vertex normals as the sum of the adjoining facets' normals, weighted by area.
 void ComputeNormals(TriangleMesh& mesh);
 
-/// Adds the vertices and triangles of `part`.
+/// Adds the vertices, triangles and paint of `part`.
 void Append(const TriangleMesh& part, TriangleMesh& mesh);
 
 /// point -> rotation * point + translation, normals likewise.

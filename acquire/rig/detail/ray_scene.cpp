@@ -76,16 +76,16 @@ Result<RayScene> RayScene::Build(const TriangleMesh& mesh) {
   return RayScene(std::move(embree));
 }
 
-std::optional<Hit> RayScene::FromCamera(const Eigen::Vector3d& direction) const {
+std::optional<Hit> RayScene::First(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const {
   RTCRayHit ray{};
-  ray.ray = MakeRay(Eigen::Vector3d::Zero(), direction, std::numeric_limits<float>::infinity());
+  ray.ray = MakeRay(from, direction, std::numeric_limits<float>::infinity());
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect1(embree_->scene, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return Hit{ray.hit.primID, ray.hit.u, ray.hit.v};
+  return Hit{ray.hit.primID, ray.hit.u, ray.hit.v, ray.ray.tfar};
 }
 
 bool RayScene::Sees(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {

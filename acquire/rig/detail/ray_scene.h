@@ -13,6 +13,7 @@ namespace striae::rig::detail {
 struct Hit {
   std::uint32_t triangle = 0;
   float u = 0, v = 0;  ///< barycentric weights of the second and third vertex
+  float place = 0;     ///< along the ray, in units of its direction
 };
 
 /// Safe to use from several threads at once. The mesh must outlive it.
@@ -20,8 +21,7 @@ class RayScene {
  public:
   static Result<RayScene> Build(const TriangleMesh& mesh);
 
-  /// Along `direction` from the origin of the camera frame.
-  [[nodiscard]] std::optional<Hit> FromCamera(const Eigen::Vector3d& direction) const;
+  [[nodiscard]] std::optional<Hit> First(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
   /// Nothing lies between the two points.
   [[nodiscard]] bool Sees(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 

@@ -1,6 +1,7 @@
 // Light from one sample of the scene, and from one pixel as the mean over its area.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "acquire/rig/detail/ray_scene.h"
@@ -13,7 +14,7 @@ namespace striae::rig::detail {
 struct Sample {
   bool hit = false;
   bool sees_light = false;
-  float depth_mm = 0;
+  double depth_mm = 0;
   Hit where;
   Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();  ///< z = 1
 };
@@ -22,6 +23,9 @@ class Shader {
  public:
   Shader(const TriangleMesh& mesh, const RayScene& scene, const Calibration& calibration, const LightOptions& options);
 
+  /// The same with the body `shift_mm` further: camera and projector stay, and so do the stripes.
+  [[nodiscard]] Shader Shifted(const Eigen::Vector3d& shift_mm) const;
+
   [[nodiscard]] Sample Trace(const Eigen::Vector2d& pixel) const;
   /// Linear RGB of a pixel whose surroundings are one smooth facet: the facet's plane stands for all of its area.
   /// `across` and `along` are the changes of the ray from this pixel to the next across and along the stripes.
@@ -29,8 +33,8 @@ class Shader {
                                        const Eigen::Vector3d& along) const;
   /// Linear RGB of a pixel at an edge: a fixed pattern of traced rays.
   [[nodiscard]] Eigen::Vector3f Edge(const Eigen::Vector2d& pixel) const;
-  /// The grating's light reaches the sample, bright stripe or dark.
-  [[nodiscard]] bool Lit(const Sample& sample) const;
+  /// Stripe order at the sample when the grating's light reaches it, bright stripe or dark.
+  [[nodiscard]] std::optional<double> LitOrder(const Sample& sample) const;
   [[nodiscard]] bool AlongRows() const { return calibration_.direction == StripeDirection::kHorizontal; }
 
  private:
@@ -41,15 +45,17 @@ class Shader {
   [[nodiscard]] Plane PlaneOf(std::uint32_t triangle) const;
   /// Mean over the pixel's area of the grating's light, times the painted albedo where something is painted.
   [[nodiscard]] Eigen::Vector3f Painted(const Sample& centre, const Plane& plane, const Eigen::Vector3d& across,
-                                        const Eigen::Vector3d& along, double direct, const Eigen::Vector3f& skin) const;
+                                        const Eigen::Vector3d& along, double direct, double blur,
+                                        const Eigen::Vector3f& skin) const;
 
   const TriangleMesh& mesh_;
   const RayScene& scene_;
+  Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< of the body in the camera frame
   Calibration calibration_;
   StripeOptics optics_;
   int stripes_;
   LightOptions options_;
-  GratingLight grating_;
+  std::shared_ptr<const GratingLight> grating_;
   ProjectorLight projector_;
 };
 
