@@ -4,11 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/LU>
 #include <opencv2/aruco.hpp>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/optics.h"
+#include "reconstruct/detail/target_pose.h"
 
 namespace striae::reconstruct {
 namespace {
@@ -16,9 +17,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kModules = 6;            ///< along a label's side, its border included
-constexpr double kLargestMisfit = 0.012;  ///< of the side: a bent or half hidden label fits no plane
-constexpr int kSamples = 41;              ///< profiles across each side
+constexpr double kModules = 6;        ///< along a label's side, its border included
+constexpr double kLargestMisfit = 4;  ///< of what the sides are known to: a bent or half hidden label fits no plane
+constexpr int kSamples = 41;          ///< profiles across each side
 constexpr int kFewestPoints = 20;
 
 /// 8 bit for the detector, brightened as sRGB is, so that dark skin and paper both show; at most about 1100 px wide.
@@ -104,14 +105,9 @@ std::optional<Vector2d> Step(const ImageF& image, const Vector2d& on_side, const
   return found;
 }
 
-/// A line a x + b y = c through points, with the rms of its residuals.
-struct Line {
-  Vector2d normal;
-  double offset = 0, rms = 0;
-};
-
-std::optional<Line> FitLine(std::vector<Vector2d> points) {
-  Line line;
+/// A line through the points with the rms of its residuals as `sd`; stragglers are left out.
+std::optional<SideLine> FitLine(std::vector<Vector2d> points) {
+  SideLine line;
   for (int round = 0; round < 4; ++round) {
     if (static_cast<int>(points.size()) < kFewestPoints) return std::nullopt;
     Vector2d mean = Vector2d::Zero();
@@ -126,122 +122,78 @@ std::optional<Line> FitLine(std::vector<Vector2d> points) {
     line.offset = line.normal.dot(mean);
     double sum = 0;
     for (const Vector2d& p : points) sum += std::pow(line.normal.dot(p) - line.offset, 2);
-    line.rms = std::sqrt(sum / static_cast<double>(points.size()));
-    const double most = std::max(2.5 * line.rms, 1e-9);
+    line.sd = std::sqrt(sum / static_cast<double>(points.size()));
+    const double most = std::max(2.5 * line.sd, 1e-9);
     std::erase_if(points, [&](const Vector2d& p) { return std::abs(line.normal.dot(p) - line.offset) > most; });
   }
   return line;
 }
 
-/// The corners as the meetings of the sides' lines, on the plane z = 1 (lens distortion removed); nullopt when a side
-/// does not show well.
-std::optional<std::array<Vector2d, 4>> Corners(const ImageF& background, const CameraModel& camera,
-                                               const Found& found) {
-  std::array<Vector2d, 4> rough = found.corner, refined;
+/// What a side's line is known to (px), `sd_px` being its points' scatter: dark stripes hide a side that runs along
+/// them.
+double SideUncertainty(const PhaseResult& phase, const Vector2d& side_px, double sd_px) {
+  constexpr double kPixel = 0.3, kIndependent = 8, kHidden = 0.144;  // a quarter stripe either way, evenly: / sqrt(3)
+  const bool along_rows = phase.direction == StripeDirection::kHorizontal;
+  const double along = std::abs(along_rows ? side_px.x() : side_px.y()) / side_px.norm();
+  const double stripes = std::abs(along_rows ? side_px.y() : side_px.x()) / phase.carrier_period_px;
+  const double hidden = kHidden * phase.carrier_period_px * along / std::max(1.0, stripes);
+  return std::hypot(kPixel, hidden, sd_px / std::sqrt(kIndependent));
+}
+
+/// The four sides on the plane z = 1 (lens distortion removed), from upper left to upper right and on clockwise;
+/// nullopt when one does not show well. `found` becomes the lines' meetings.
+std::optional<detail::Sides> SidesOf(const PhaseResult& phase, const CameraModel& camera, Found& found) {
+  detail::Sides sides;
   for (int round = 0; round < 2; ++round) {
-    std::array<Line, 4> sides;
     for (std::size_t k = 0; k < 4; ++k) {
-      const Vector2d from = rough[k], along = rough[(k + 1) % 4] - from;
+      const Vector2d from = found.corner[k], along = found.corner[(k + 1) % 4] - from;
       const Vector2d outwards = Vector2d(along.y(), -along.x()) / kModules;  // corners go clockwise on the sensor
       std::vector<Vector2d> points;
       for (int i = 0; i < kSamples; ++i) {
         const Vector2d on_side = from + (0.15 + 0.7 * i / (kSamples - 1)) * along;
-        if (const auto step = Step(background, on_side, outwards)) {
+        if (const auto step = Step(phase.background, on_side, outwards)) {
           points.emplace_back(RayOf(camera, *step).head<2>());
         }
       }
       const auto line = FitLine(std::move(points));
       if (!line) return std::nullopt;
       sides[k] = *line;
+      sides[k].sd = SideUncertainty(phase, along, line->sd * camera.fx) / camera.fx;
     }
+    const auto corners = detail::CornersOf(sides);
+    if (!corners) return std::nullopt;
     for (std::size_t k = 0; k < 4; ++k) {
-      const Line &a = sides[(k + 3) % 4], &b = sides[k];
-      Eigen::Matrix2d normals;
-      normals << a.normal.transpose(), b.normal.transpose();
-      if (std::abs(normals.determinant()) < 0.2) return std::nullopt;
-      refined[k] = normals.inverse() * Vector2d(a.offset, b.offset);
-      rough[k] = Project(camera, Vector3d(refined[k].x(), refined[k].y(), 1));
+      found.corner[k] = Project(camera, {(*corners)[k].x(), (*corners)[k].y(), 1});
     }
   }
-  return refined;
+  return sides;
 }
 
-struct Pose {
-  Vector3d middle, normal;
-  double misfit = 0;  ///< on the plane z = 1
-};
-
-std::optional<Pose> PoseOf(const std::array<Vector2d, 4>& corners, double side_mm) {
-  const double h = side_mm / 2;
-  const std::vector<cv::Point3d> square = {{-h, h, 0}, {h, h, 0}, {h, -h, 0}, {-h, -h, 0}};
-  std::vector<cv::Point2d> seen;
-  for (const Vector2d& c : corners) seen.emplace_back(c.x(), c.y());
-  std::vector<cv::Mat> turns, shifts;
-  std::vector<double> errors;
-  const int count = cv::solvePnPGeneric(square, seen, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), turns, shifts, false,
-                                        cv::SOLVEPNP_IPPE_SQUARE, cv::noArray(), cv::noArray(), errors);
-  if (count < 1) return std::nullopt;
-  cv::solvePnPRefineLM(square, seen, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), turns[0], shifts[0]);
-  cv::Mat rotation;
-  cv::Rodrigues(turns[0], rotation);
-  std::vector<cv::Point2d> posed;
-  cv::projectPoints(square, turns[0], shifts[0], cv::Mat::eye(3, 3, CV_64F), cv::noArray(), posed);
-  Pose pose{{shifts[0].at<double>(0), shifts[0].at<double>(1), shifts[0].at<double>(2)},
-            {rotation.at<double>(0, 2), rotation.at<double>(1, 2), rotation.at<double>(2, 2)},
-            0};
-  for (std::size_t k = 0; k < 4; ++k) {
-    pose.misfit += (Vector2d(posed[k].x, posed[k].y) - corners[k]).squaredNorm() / 4;
-  }
-  pose.misfit = std::sqrt(pose.misfit);
-  if (pose.normal.dot(pose.middle) > 0) pose.normal = -pose.normal;
-  return pose.middle.z() > 0 ? std::optional(pose) : std::nullopt;
-}
-
-/// The depth's standard uncertainty from that of each corner's coordinates, by moving each a little.
-double DepthUncertainty(const std::array<Vector2d, 4>& corners, double side_mm, const Pose& pose, double corner_sd) {
-  double variance = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    for (int axis = 0; axis < 2; ++axis) {
-      auto moved = corners;
-      moved[k][axis] += corner_sd;
-      const auto other = PoseOf(moved, side_mm);
-      if (other) variance += std::pow(other->middle.z() - pose.middle.z(), 2);
-    }
-  }
-  return std::sqrt(variance);
-}
-
-std::optional<TargetSighting> Find(const ImageF& background, const CameraModel& camera, double side_mm) {
-  const auto found = Detect(background);
+std::optional<TargetSighting> Find(const PhaseResult& phase, const CameraModel& camera, double side_mm) {
+  auto found = Detect(phase.background);
   if (!found) return std::nullopt;
-  const auto corners = Corners(background, camera, *found);
-  if (!corners) return std::nullopt;
-  const auto pose = PoseOf(*corners, side_mm);
-  const double side = std::sqrt(Area(found->corner)) / camera.fx;
-  if (!pose || pose->misfit > kLargestMisfit * side) return std::nullopt;
-  // What a side's line is known to: half a pixel, or what the plane does not explain. A printer's scale adds 0.1 %.
-  constexpr double kCornerPx = 0.5, kPrint = 0.001;
-  const double corner_sd = std::hypot(kCornerPx / camera.fx, pose->misfit);
+  const auto sides = SidesOf(phase, camera, *found);
+  if (!sides) return std::nullopt;
+  const auto pose = detail::PoseOf(*sides, side_mm);
+  if (!pose || pose->misfit > kLargestMisfit) return std::nullopt;
+  constexpr double kPrint = 0.001;  // a printer's scale
   TargetSighting sighting;
   sighting.marker_id = found->id;
   sighting.side_mm = side_mm;
-  for (std::size_t k = 0; k < 4; ++k) {
-    sighting.corner_px[k] = Project(camera, {(*corners)[k].x(), (*corners)[k].y(), 1});
-  }
+  sighting.corner_px = found->corner;
+  sighting.sides = *sides;
   sighting.middle_mm = pose->middle;
   sighting.normal = pose->normal;
-  sighting.misfit_px = pose->misfit * camera.fx;
-  sighting.distance_sd_mm =
-      std::hypot(DepthUncertainty(*corners, side_mm, *pose, corner_sd), kPrint * pose->middle.z());
+  sighting.distance_sd_mm = std::hypot(pose->depth_sd_mm, kPrint * pose->middle.z());
   return sighting;
 }
 
 }  // namespace
 
-std::optional<TargetSighting> FindTarget(const ImageF& background, const CameraModel& camera, double side_mm) {
-  if (background.width() < 64 || background.height() < 64 || !(side_mm > 0)) return std::nullopt;
+std::optional<TargetSighting> FindTarget(const PhaseResult& phase, const CameraModel& camera, double side_mm) {
+  if (phase.background.width() < 64 || phase.background.height() < 64 || !(side_mm > 0)) return std::nullopt;
   try {
-    return Find(background, camera, side_mm);
+    return Find(phase, camera, side_mm);
   } catch (const cv::Exception&) {
     return std::nullopt;  // OpenCV could make nothing of it: no label
   }

@@ -15,7 +15,6 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kLow = -0.52, kHigh = -0.5;   ///< where half of the plateau is: at this, and at N plus this
 constexpr double kLargestRemainder = 0.12;     ///< stripes; true ends scatter by 0.06, a wrong one is anywhere
 constexpr double kLargestDisagreement = 0.25;  ///< of the two ends' distance from N
-constexpr double kRangeSlack = 0.12;           ///< of the middle of the working range, beyond either end
 
 /// Median over the samples of the order that a depth predicts minus the measured one; NaN without samples.
 double PredictedOffset(const OrderScene& scene, const std::vector<RegionSample>& samples, double depth_mm) {
@@ -29,7 +28,7 @@ double PredictedOffset(const OrderScene& scene, const std::vector<RegionSample>&
 /// The whole number leaves the region within the working range and within the grating's stripes.
 bool Possible(const OrderScene& scene, const std::vector<RegionSample>& samples, int offset, int stripes) {
   constexpr double kMostOutside = 0.03, kBeyond = 0.5;
-  const double slack = kRangeSlack * (scene.calibration.near_mm + scene.calibration.far_mm) / 2;
+  const double slack = RangeSlack(scene.calibration);
   std::size_t unlit = 0;
   std::vector<double> depths;
   for (const RegionSample& sample : samples) {
@@ -40,45 +39,6 @@ bool Possible(const OrderScene& scene, const std::vector<RegionSample>& samples,
   if (depths.empty() || static_cast<double>(unlit) > kMostOutside * static_cast<double>(samples.size())) return false;
   const double middle = MedianOf(depths);
   return middle > scene.calibration.near_mm - slack && middle < scene.calibration.far_mm + slack;
-}
-
-/// Twice the signed area of a, b, p: its sign says on which side of the line p lies.
-double Side(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
-  return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
-}
-
-/// Offsets that put the label's pixels of the region onto the label's plane.
-std::vector<double> OffsetsOnLabel(const OrderScene& scene, int region, const TargetSighting& target) {
-  // The print and its paper: a sixth of the side stands out on every side; half of that is surely flat.
-  constexpr double kPaper = 1.15;
-  std::array<Eigen::Vector2d, 4> corner = target.corner_px;
-  const Eigen::Vector2d middle = (corner[0] + corner[1] + corner[2] + corner[3]) / 4;
-  Eigen::Vector2d least = middle, most = middle;
-  for (Eigen::Vector2d& c : corner) {
-    c = middle + kPaper * (c - middle);
-    least = least.cwiseMin(c);
-    most = most.cwiseMax(c);
-  }
-  const auto& phase = scene.phase;
-  const int step = std::max(1, static_cast<int>((most - least).maxCoeff() / 120));
-  std::vector<double> offsets;
-  for (int row = std::max(0, static_cast<int>(least.y())); row < std::min<double>(phase.mask.height(), most.y());
-       row += step) {
-    for (int col = std::max(0, static_cast<int>(least.x())); col < std::min<double>(phase.mask.width(), most.x());
-         col += step) {
-      if (phase.unwrapped.region(col, row) != region) continue;
-      const Eigen::Vector2d pixel(col, row);
-      bool inside = true;
-      for (std::size_t k = 0; k < 4; ++k) inside = inside && Side(corner[k], corner[(k + 1) % 4], pixel) >= 0;
-      if (!inside) continue;
-      const Eigen::Vector3d ray = RayOf(scene.calibration.camera, pixel);
-      const double depth = target.middle_mm.dot(target.normal) / ray.dot(target.normal);
-      if (const auto order = scene.optics.OrderAt(depth * ray)) {
-        offsets.push_back(*order - phase.unwrapped.phase(col, row) / kTwoPi);
-      }
-    }
-  }
-  return offsets;
 }
 
 }  // namespace
@@ -113,34 +73,6 @@ std::optional<RegionOrder> FromEdges(const OrderScene& scene, const std::vector<
   const double remainder = std::abs(offset - found.offset);
   if (remainder > kLargestRemainder || !Possible(scene, samples, found.offset, stripes)) return std::nullopt;
   found.margin = 1 - 2 * remainder;
-  return found;
-}
-
-std::optional<RegionOrder> FromTarget(const OrderScene& scene, int region, const TargetSighting& target) {
-  constexpr std::size_t kFewest = 60;
-  std::vector<double> offsets = OffsetsOnLabel(scene, region, target);
-  if (offsets.size() < kFewest) return std::nullopt;
-  const double expected = MedianOf(offsets);
-  const Eigen::Vector3d ray = target.middle_mm / target.middle_mm.z();
-  const double sd = target.distance_sd_mm / std::abs(scene.optics.DepthPerStripe(ray, target.middle_mm.z()));
-  RegionOrder found;
-  found.source = OrderSource::kTarget;
-  found.offset = static_cast<int>(std::lround(expected));
-  const double remainder = std::abs(expected - found.offset);
-  // The next whole number is 1 - remainder away: by so many standard uncertainties it is the worse one.
-  constexpr double kSure = 4, kLikely = 3, kBend = 0.05;
-  found.margin = std::clamp(1 - 2 * (remainder + sd), 0.0, 1.0);
-  const double slack = kRangeSlack * (scene.calibration.near_mm + scene.calibration.far_mm) / 2;
-  if (target.middle_mm.z() < scene.calibration.near_mm - slack ||
-      target.middle_mm.z() > scene.calibration.far_mm + slack) {
-    found.margin = 0;
-    found.warning = "the label's size puts it at " + std::to_string(std::lround(target.middle_mm.z())) +
-                    " mm, outside of the working range; check the side length that was given for the label";
-  } else if ((1 - remainder) < kSure * sd || remainder > kLikely * sd + kBend) {
-    found.warning =
-        "the label's size fits no whole stripe number well; check its side length, and that it lies flat and square to "
-        "the camera";
-  }
   return found;
 }
 

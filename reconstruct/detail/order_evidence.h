@@ -16,6 +16,11 @@ struct OrderScene {
   StripeOptics optics;
 };
 
+/// How far beyond its working range a region may still lie, mm: 12 % of the range's middle.
+inline double RangeSlack(const Calibration& calibration) {
+  return 0.12 * (calibration.near_mm + calibration.far_mm) / 2;
+}
+
 /// A pixel of a region: its ray (z = 1) and its relative order in stripes.
 struct RegionSample {
   Eigen::Vector3d ray;
