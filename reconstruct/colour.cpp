@@ -10,85 +10,142 @@
 namespace striae::reconstruct {
 namespace {
 
-using detail::ParallelBlocks;
-using detail::ParallelLines;
-
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr float kBrightHalfWidth = 0.1F;  // stripes around a bright centre that give the colour
+constexpr float kStep = 0.25F;            // stripes between neighbours: another surface
 
-struct Crest {
-  int first = 0, last = 0;  ///< pixels within kBrightHalfWidth of a whole order
+/// Nearest whole number without a call: adding 1.5 * 2^23 leaves no bits for the fraction.
+float Whole(float value) {
+  constexpr float kMagic = 12582912.0F;
+  return (value + kMagic) - kMagic;
+}
+
+struct Colour {
   float r = 0, g = 0, b = 0;
 };
 
-/// The bright centres along one line, in order.
-std::vector<Crest> CrestsOf(const Rgb8* colour, const float* order, int length) {
-  std::vector<Crest> crests;
-  float whole_before = kNone;
-  int count = 0;
-  for (int x = 0; x < length; ++x) {
-    const float whole = std::nearbyint(order[x]);
-    if (std::isnan(order[x]) || std::abs(order[x] - whole) > kBrightHalfWidth) continue;
-    if (crests.empty() || whole != whole_before || x - crests.back().last > 3) {
-      crests.push_back({x, x, 0, 0, 0});
-      count = 0;
-    }
-    whole_before = whole;
-    Crest& crest = crests.back();
-    crest.last = x;
-    ++count;
-    const auto mix = [&](float& mean, std::uint8_t value) {
-      mean += (static_cast<float>(value) - mean) / static_cast<float>(count);
-    };
-    mix(crest.r, colour[x].r);
-    mix(crest.g, colour[x].g);
-    mix(crest.b, colour[x].b);
-  }
-  return crests;
-}
+std::uint8_t Byte(float value) { return static_cast<std::uint8_t>(value + 0.5F); }
 
-void FillLine(const float* order, int length, Rgb8* colour) {
-  const std::vector<Crest> crests = CrestsOf(colour, order, length);
-  if (crests.empty()) return;
-  const auto center = [](const Crest& c) { return 0.5F * static_cast<float>(c.first + c.last); };
-  std::size_t next = 0;
-  for (int x = 0; x < length; ++x) {
-    if (std::isnan(order[x])) continue;
-    const auto at = static_cast<float>(x);
-    while (next < crests.size() && center(crests[next]) < at) ++next;
-    const Crest& after = crests[std::min(next, crests.size() - 1)];
-    const Crest& before = crests[next == 0 ? 0 : next - 1];
-    const float span = center(after) - center(before);
-    const float t = span > 0 ? std::clamp((at - center(before)) / span, 0.0F, 1.0F) : 0.0F;
-    const auto blend = [t](float a, float b) { return static_cast<std::uint8_t>(std::lround(a + t * (b - a))); };
-    colour[x] = {blend(before.r, after.r), blend(before.g, after.g), blend(before.b, after.b)};
+/// One line across the stripes, pixel after pixel. What is written lies behind what is still to be read, so that a line
+/// is changed in its place; `stride` pixels lie between neighbours of the line.
+class LineFiller {
+ public:
+  void Start(Rgb8* line, std::ptrdiff_t stride) {
+    *this = {};
+    line_ = line;
+    stride_ = stride;
   }
-}
+
+  void Take(int x, float order) {
+    if (!(std::abs(order - previous_) < kStep)) {  // true for NaN too
+      End(x);
+      if (std::isnan(order)) {
+        previous_ = order;
+        return;
+      }
+      written_ = x;
+      within_ = true;
+    }
+    previous_ = order;
+    const float whole = Whole(order);
+    if (std::abs(order - whole) <= kBrightHalfWidth) {
+      if (count_ > 0 && whole != whole_) CloseCrest();
+      if (count_ == 0) first_ = x;
+      whole_ = whole;
+      Add(x);
+    } else if (count_ > 0) {
+      CloseCrest();
+    }
+  }
+
+  /// The piece of surface ends before pixel x.
+  void End(int x) {
+    if (!within_) return;
+    if (count_ > 0) CloseCrest();
+    if (has_before_) {
+      for (; written_ < x; ++written_) Put(written_, before_);
+    }
+    has_before_ = within_ = false;
+  }
+
+ private:
+  void Add(int x) {
+    const Rgb8 c = line_[x * stride_];
+    sum_.r += static_cast<float>(c.r);
+    sum_.g += static_cast<float>(c.g);
+    sum_.b += static_cast<float>(c.b);
+    ++count_;
+    last_ = x;
+  }
+
+  void CloseCrest() {
+    const float share = 1 / static_cast<float>(count_);
+    const Colour mean{sum_.r * share, sum_.g * share, sum_.b * share};
+    const float center = 0.5F * static_cast<float>(first_ + last_);
+    const int until = static_cast<int>(center) + 1;
+    if (!has_before_) {
+      for (; written_ < until; ++written_) Put(written_, mean);
+    } else {
+      const float per_pixel = 1 / (center - before_center_);
+      for (; written_ < until; ++written_) {
+        const float t = (static_cast<float>(written_) - before_center_) * per_pixel;
+        Put(written_, {before_.r + t * (mean.r - before_.r), before_.g + t * (mean.g - before_.g),
+                       before_.b + t * (mean.b - before_.b)});
+      }
+    }
+    before_ = mean;
+    before_center_ = center;
+    has_before_ = true;
+    sum_ = {};
+    count_ = 0;
+  }
+
+  void Put(int x, const Colour& c) { line_[x * stride_] = {Byte(c.r), Byte(c.g), Byte(c.b)}; }
+
+  Rgb8* line_ = nullptr;
+  std::ptrdiff_t stride_ = 1;
+  float previous_ = std::numeric_limits<float>::quiet_NaN();  ///< order of the pixel before
+  float whole_ = 0;                                           ///< order of the open crest
+  Colour sum_;                                                ///< of the open crest
+  int count_ = 0, first_ = 0, last_ = 0;
+  Colour before_;  ///< the crest before, in the same piece of surface
+  float before_center_ = 0;
+  bool has_before_ = false, within_ = false;
+  int written_ = 0;  ///< pixels of the piece before this one have their colour
+};
 
 }  // namespace
 
 ImageRgb ColourWithoutStripes(const ImageRgb& photograph, const ImageF& order, StripeDirection direction) {
-  ImageRgb out = photograph;
-  const int height = out.height();
+  ImageRgb out = ImageRgb::Unset(photograph.width(), photograph.height());
+  const int width = out.width(), height = out.height();
   if (direction == StripeDirection::kVertical) {
-    ParallelLines(height, [&](int row) { FillLine(order.Row(row), out.width(), out.Row(row)); });
+    detail::ParallelLines(height, [&](int row) {
+      std::copy_n(photograph.Row(row), width, out.Row(row));
+      LineFiller filler;
+      filler.Start(out.Row(row), 1);
+      for (int col = 0; col < width; ++col) filler.Take(col, order(col, row));
+      filler.End(width);
+    });
     return out;
   }
-  // A few columns at a time are turned into lines and back.
-  ParallelBlocks(out.width(), [&](int, int first, int last) {
-    ImageRgb colours(height, last - first);
-    ImageF orders(height, last - first);
-    for (int row = 0; row < height; ++row) {
-      for (int col = first; col < last; ++col) {
-        colours(row, col - first) = out(col, row);
-        orders(row, col - first) = order(col, row);
-      }
-    }
-    for (int line = 0; line < last - first; ++line) FillLine(orders.Row(line), height, colours.Row(line));
-    for (int row = 0; row < height; ++row) {
-      for (int col = first; col < last; ++col) out(col, row) = colours(row, col - first);
-    }
-  });
+  // Neighbouring columns go down together: rows are read as they lie in memory, and what is written lies close by.
+  constexpr int kColumns = 64;
+  detail::ParallelBlocks(
+      width,
+      [&](int, int first, int last) {
+        std::vector<LineFiller> fillers(static_cast<std::size_t>(last - first));
+        for (int col = first; col < last; ++col) {
+          fillers[static_cast<std::size_t>(col - first)].Start(out.Row(0) + col, width);
+        }
+        for (int row = 0; row < height; ++row) {
+          const float* orders = order.Row(row);
+          std::copy(photograph.Row(row) + first, photograph.Row(row) + last, out.Row(row) + first);
+          for (int col = first; col < last; ++col)
+            fillers[static_cast<std::size_t>(col - first)].Take(row, orders[col]);
+        }
+        for (LineFiller& filler : fillers) filler.End(height);
+      },
+      kColumns);
   return out;
 }
 
