@@ -7,6 +7,8 @@
 #include "app/io/files.h"
 #include "app/io/images.h"
 #include "app/io/photograph.h"
+#include "app/io/surface_files.h"
+#include "reconstruct/quality.h"
 
 namespace striae::app {
 namespace {
@@ -27,6 +29,7 @@ Status WriteImages(const Options& options, const reconstruct::PhaseResult& phase
 }
 
 Status MeasurePhase(Context& context, const Options& options) {
+  if (Status writable = CheckWritable(options.out); !writable) return writable;
   const auto bytes = ReadFile(options.image);
   if (!bytes) return Fail(bytes.error());
   const auto photograph = DecodePhotograph(*bytes);
@@ -39,12 +42,16 @@ Status MeasurePhase(Context& context, const Options& options) {
 
   std::size_t valid = 0;
   for (const std::uint8_t m : phase->mask.pixels()) valid += m;
+  const auto quality = reconstruct::JudgePhotograph(*photograph, *phase);
+  for (const std::string& warning : quality.warnings) context.Note("warning: " + warning);
   const nlohmann::json document = {{"direction", ToString(phase->direction)},
                                    {"carrier_period_px", phase->carrier_period_px},
                                    {"carrier_prominence", phase->carrier_prominence},
                                    {"points", valid},
                                    {"regions", phase->unwrapped.regions},
-                                   {"saturated_share", phase->saturated_share}};
+                                   {"saturated_share", phase->saturated_share},
+                                   {"modulation", quality.modulation},
+                                   {"warnings", quality.warnings}};
   context.Output(document,
                  fmt::format("{}: {} stripes every {:.2f} px, {} pixels in {} regions", options.out.string(),
                              ToString(phase->direction), phase->carrier_period_px, valid, phase->unwrapped.regions));
@@ -57,7 +64,7 @@ void AddCommand_phase(CLI::App& root, Context& context) {
   CLI::App* command = AddCommand(root, context, "phase", "Measure the unwrapped phase of any fringe photograph",
                                  "striae phase fringes.png --out phase.tiff --mask mask.png");
   auto options = std::make_shared<Options>();
-  command->add_option("image", options->image, "Photograph: JPEG, PNG, TIFF or BMP")->required();
+  command->add_option("image", options->image, "Photograph: JPEG, PNG, TIFF, BMP, NEF or DNG")->required();
   command->add_option("--out", options->out, "Phase to write (TIFF, float32, radians, NaN where invalid)")->required();
   command->add_option("--mask", options->mask, "Mask to write (PNG, 255 = valid)");
   command->add_option("--window", options->window, "Half width of the Hann window over the carrier's frequency")

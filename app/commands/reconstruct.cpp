@@ -2,15 +2,19 @@
 #include "reconstruct/reconstruct.h"
 
 #include <chrono>
+#include <functional>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "app/command.h"
 #include "app/io/files.h"
+#include "app/io/phase_preview.h"
 #include "app/io/photograph.h"
 #include "app/io/preview.h"
-#include "core/ply.h"
+#include "app/io/surface_files.h"
 #include "core/provenance.h"
+#include "reconstruct/white_balance.h"
 
 namespace striae::app {
 namespace {
@@ -19,8 +23,18 @@ namespace fs = std::filesystem;
 
 struct Options {
   fs::path image, calibration, out, preview;
+  std::vector<fs::path> also;
+  std::string format, white_balance = "as-shot";
   double distance_mm = 0;
+  std::size_t decimate = 0;
   bool no_faces = false;
+};
+
+/// A file to write, as the options name it.
+struct Target {
+  fs::path path;
+  SurfaceFormat format = SurfaceFormat::kPly;
+  bool decimated = false;
 };
 
 double Now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -34,19 +48,79 @@ Result<Calibration> ReadCalibration(const fs::path& path, Sha256& sha256) {
   return calibration;
 }
 
-Status WritePreviews(const fs::path& folder, const Photograph& photograph, const Surface& surface) {
+/// Where everything goes, checked before anything is computed.
+Result<std::vector<Target>> TargetsOf(const Options& options) {
+  const bool decimate = options.decimate > 0;
+  if (options.no_faces && decimate) return Fail(ErrorCode::kUsage, "--decimate needs faces; leave out --no-faces");
+  // A name of any kind is a PLY unless it says otherwise, as it has always been.
+  auto format = FormatOf(options.out, options.format);
+  if (!format && !options.format.empty()) return Fail(format.error());
+  const SurfaceFormat first = format ? *format : SurfaceFormat::kPly;
+  std::vector<Target> targets = {{options.out, first, decimate && first != SurfaceFormat::kPly}};
+  for (const fs::path& path : options.also) {
+    format = FormatOf(path, "");
+    if (!format) return Fail(format.error());
+    targets.push_back({path, *format, decimate});
+  }
+  for (const Target& target : targets) {
+    if (Status writable = CheckWritable(target.path); !writable) return Fail(writable.error());
+    if (options.no_faces && target.format != SurfaceFormat::kPly) {
+      return Fail(ErrorCode::kUsage, "STL and OBJ are made of faces; leave out --no-faces");
+    }
+  }
+  return targets;
+}
+
+/// Writes all or nothing; what was made of the decimation goes into `document`.
+Status WriteTargets(const std::vector<Target>& targets, const Surface& surface, std::size_t faces,
+                    nlohmann::json& document) {
+  std::optional<DecimatedSurface> decimated;
+  std::vector<fs::path> written;
+  const auto write = [&](const Target& target) -> Status {
+    if (target.decimated && !decimated) {
+      auto made = DecimateForFile(surface, faces);
+      if (!made) return Fail(made.error());
+      decimated = *std::move(made);
+      document["decimated"] = {{"faces", decimated->surface.faces.size()},
+                               {"points", decimated->surface.size()},
+                               {"deviation_max_mm", decimated->deviation_largest_mm},
+                               {"deviation_rms_mm", decimated->deviation_rms_mm}};
+    }
+    const auto files = WriteSurface(target.decimated ? decimated->surface : surface, target.path, target.format);
+    if (!files) return Fail(files.error());
+    written.insert(written.end(), files->begin(), files->end());
+    return {};
+  };
+  for (const Target& target : targets) {
+    if (Status done = write(target); !done) {
+      std::error_code code;
+      for (const fs::path& file : written) fs::remove(file, code);
+      return done;
+    }
+  }
+  for (const fs::path& file : written) document["files"].push_back(file.string());
+  return {};
+}
+
+Status WritePreviews(const fs::path& folder, const Photograph& photograph, const Calibration& calibration,
+                     const Surface& surface) {
   std::error_code code;
   fs::create_directories(folder, code);
-  const auto photo = PhotographPreview(photograph.colour);
-  const auto depth = DepthPreview(surface);
-  const auto shaded = ShadedPreview(surface);
-  const struct {
-    const char* name;
-    const Result<std::vector<std::uint8_t>>& png;
-  } pictures[] = {{"photo.png", photo}, {"depth.png", depth}, {"shaded.png", shaded}};
-  for (const auto& [name, png] : pictures) {
+  reconstruct::PhaseOptions same;
+  same.direction = calibration.direction;
+  const auto phase = reconstruct::MeasurePhase(photograph, same);
+  if (!phase) return Fail(phase.error());
+  const std::pair<const char*, std::function<Result<std::vector<std::uint8_t>>()>> pictures[] = {
+      {"photo.png", [&] { return PhotographPreview(photograph.colour); }},
+      {"depth.png", [&] { return DepthPreview(surface); }},
+      {"shaded.png", [&] { return ShadedPreview(surface); }},
+      {"phase.png", [&] { return PhasePreview(*phase); }},
+      {"mask.png", [&] { return MaskPreview(photograph, phase->mask); }},
+      {"modulation.png", [&] { return ModulationPreview(*phase); }}};
+  for (const auto& [name, draw] : pictures) {
+    const auto png = draw();
     if (!png) return Fail(png.error());
-    if (Status written = WriteFile(folder / name, *png); !written) return written;
+    if (Status written = WriteFile(folder / name, *png, Kept::kSystem); !written) return written;
   }
   return {};
 }
@@ -71,6 +145,10 @@ nlohmann::json ToJson(const reconstruct::Reconstruction& r) {
 }
 
 Status Reconstruct(Context& context, const Options& options) {
+  const auto targets = TargetsOf(options);
+  if (!targets) return Fail(targets.error());
+  const auto balance = reconstruct::WhiteBalanceFrom(options.white_balance);
+  if (!balance) return Fail(balance.error());
   Sha256 calibration_sha256;
   const auto calibration = ReadCalibration(options.calibration, calibration_sha256);
   if (!calibration) return Fail(calibration.error());
@@ -89,16 +167,21 @@ Status Reconstruct(Context& context, const Options& options) {
   result->surface.comments = {"striae " + std::string(StriaeVersion()),
                               "photograph sha256 " + HashOf(*bytes).ToString(),
                               "calibration sha256 " + calibration_sha256.ToString()};
+  if (const auto gains = reconstruct::Balance(*balance, result->surface); !gains) return Fail(gains.error());
   const double reconstructed = Now();
-  if (Status written = WriteFile(options.out, EncodePly(result->surface)); !written) return written;
+  nlohmann::json files;
+  if (Status written = WriteTargets(*targets, result->surface, options.decimate, files); !written) return written;
   result->seconds.insert(result->seconds.begin(), {"decode", decoded - start});
   result->seconds.emplace_back("write", Now() - reconstructed);
   result->seconds.emplace_back("total", Now() - start);
   if (!options.preview.empty()) {
-    if (Status written = WritePreviews(options.preview, *photograph, result->surface); !written) return written;
+    Status written = WritePreviews(options.preview, *photograph, *calibration, result->surface);
+    if (!written) return written;
   }
   for (const std::string& warning : result->warnings) context.Note("warning: " + warning);
-  context.Output(ToJson(*result),
+  nlohmann::json document = ToJson(*result);
+  document.update(files);
+  context.Output(document,
                  fmt::format("{}: {} points, {:.1f} % of the lit field, carrier {:.2f} px, stripe order from {}",
                              options.out.string(), result->surface.size(), 100 * result->coverage,
                              result->carrier_period_px, ToString(result->regions.front().source)));
@@ -109,15 +192,28 @@ Status Reconstruct(Context& context, const Options& options) {
 
 void AddCommand_reconstruct(CLI::App& root, Context& context) {
   CLI::App* command =
-      AddCommand(root, context, "reconstruct", "Compute a coloured surface (PLY, mm) from one photograph",
-                 "striae reconstruct DSC_0001.JPG --calibration small.json --out limb.ply --preview pictures");
+      AddCommand(root, context, "reconstruct", "Compute a coloured surface (mm) from one photograph",
+                 "striae reconstruct DSC_0001.JPG --calibration small.json --out limb.ply --also limb.obj "
+                 "--decimate 50000 --preview pictures");
   auto options = std::make_shared<Options>();
-  command->add_option("image", options->image, "Photograph: JPEG, PNG, TIFF or BMP")->required();
+  command->add_option("image", options->image, "Photograph: JPEG, PNG, TIFF, BMP, NEF or DNG")->required();
   command->add_option("--calibration", options->calibration, "Calibration of the rig (JSON)")->required();
-  command->add_option("--out", options->out, "Surface to write (PLY)")->required();
+  command->add_option("--out", options->out, "Surface to write: .ply, .stl or .obj (with .mtl and .jpg)")->required();
+  command->add_option("--also", options->also, "Further files to write, by their extension");
+  command->add_option("--format", options->format, "Format of --out whatever its name")
+      ->check(CLI::IsMember({"ply", "stl", "obj"}));
+  command
+      ->add_option("--decimate", options->decimate,
+                   "Most faces of STL, OBJ and all of --also (the PLY of --out keeps every point); the deviation is "
+                   "measured")
+      ->check(CLI::Range(std::size_t{4}, std::size_t{100'000'000}));
+  command
+      ->add_option("--white-balance", options->white_balance,
+                   "as-shot, grey-world, white-patch or grey-card=COL,ROW (a sensor pixel on the card)")
+      ->capture_default_str();
   command->add_option("--distance-mm", options->distance_mm, "Distance of the subject, if known better than the rig's")
       ->check(CLI::PositiveNumber);
-  command->add_option("--preview", options->preview, "Folder for photo.png, depth.png and shaded.png");
+  command->add_option("--preview", options->preview, "Folder for photo, shaded, depth, phase, mask and modulation.png");
   command->add_flag("--no-faces", options->no_faces, "Write points only");
   OnRun(command, context, [options](Context& run) { return Reconstruct(run, *options); });
 }

@@ -1,6 +1,7 @@
 #include "app/io/files.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -56,6 +57,9 @@ Result<std::string> ReadText(const fs::path& path) {
 Status WriteFile(const fs::path& path, const std::function<bool(const ByteSink&)>& produce, Kept kept) {
   std::error_code code;
   if (fs::is_directory(path, code)) return WriteFailed(path, EISDIR);
+  // Beyond a limit on the size of files (ulimit -f) writing shall fail like a full disk, not end the program.
+  static const auto unlimited = std::signal(SIGXFSZ, SIG_IGN);
+  static_cast<void>(unlimited);
   std::string temporary = path.string() + ".part-XXXXXX";
   const int file = ::mkstemp(temporary.data());
   if (file < 0) return WriteFailed(path, errno);

@@ -1,43 +1,17 @@
 #include "app/io/preview.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Geometry>
 
-#include "report/drawing.h"
+#include "app/io/colour_bar.h"
 #include "report/picture.h"
 
 namespace striae::app {
 namespace {
 
-constexpr Rgb8 kWhite{255, 255, 255}, kInk{38, 50, 58};
-
-/// Viridis (van der Walt and Smith, matplotlib, CC0) at eleven places; straight lines between them.
-constexpr std::array<Rgb8, 11> kViridis = {{{68, 1, 84},
-                                            {72, 36, 117},
-                                            {65, 68, 135},
-                                            {53, 95, 141},
-                                            {42, 120, 142},
-                                            {33, 145, 140},
-                                            {34, 168, 132},
-                                            {68, 191, 112},
-                                            {122, 209, 81},
-                                            {189, 223, 38},
-                                            {253, 231, 37}}};
-
-Rgb8 Viridis(double share) {
-  const double at = std::clamp(share, 0.0, 1.0) * (kViridis.size() - 1);
-  const auto low = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
-  const double rest = at - static_cast<double>(low);
-  const auto mix = [&](std::uint8_t a, std::uint8_t b) {
-    return static_cast<std::uint8_t>(std::lround(a + rest * (b - a)));
-  };
-  return {mix(kViridis[low].r, kViridis[low + 1].r), mix(kViridis[low].g, kViridis[low + 1].g),
-          mix(kViridis[low].b, kViridis[low + 1].b)};
-}
+constexpr Rgb8 kWhite{255, 255, 255};
 
 /// The part of the sensor that has points, with a margin of 2 %.
 struct Cut {
@@ -91,46 +65,6 @@ Status CheckDrawable(const Surface& surface) {
   return {};
 }
 
-/// 1, 2 or 5 times a power of ten: about five labels on the bar.
-double TickStep(double span_mm) {
-  const double power = std::pow(10.0, std::floor(std::log10(span_mm / 5)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= span_mm / 5) return factor * power;
-  }
-  return 10 * power;
-}
-
-/// The colour bar with its labels, near at the top, as high as the map.
-ImageRgb ColourBar(const DepthRange& range, int height_px, double scale) {
-  report::Drawing bar;
-  bar.width = 62;
-  bar.height = height_px / scale;
-  const double top = 16, bottom = bar.height - 8, left = 8, right = 20;
-  constexpr int kSlices = 64;
-  for (int i = 0; i < kSlices; ++i) {
-    const double y0 = top + (bottom - top) * i / kSlices, y1 = top + (bottom - top) * (i + 1) / kSlices + 0.3;
-    bar.Polygon({{left, y0}, {right, y0}, {right, y1}, {left, y1}}, Viridis(1 - (i + 0.5) / kSlices), kInk, 0);
-  }
-  const double step = TickStep(range.far_mm - range.near_mm);
-  const int decimals = step < 1 ? static_cast<int>(std::ceil(-std::log10(step) - 1e-9)) : 0;
-  for (double depth = std::ceil(range.near_mm / step - 1e-9) * step; depth <= range.far_mm + 1e-9 * step;
-       depth += step) {
-    const double y = top + (bottom - top) * (depth - range.near_mm) / (range.far_mm - range.near_mm);
-    char label[32];
-    std::snprintf(label, sizeof label, "%.*f", decimals, depth);
-    bar.Line({{right, y}, {right + 3, y}}, 0.7, kInk);
-    bar.Text({right + 5, y + 3}, 9, label, kInk);
-  }
-  bar.Text({left, 9}, 9, "mm", kInk);
-  return report::Rasterise(bar, scale);
-}
-
-void Paste(const ImageRgb& part, int col, ImageRgb& whole) {
-  for (int y = 0; y < std::min(part.height(), whole.height()); ++y) {
-    std::copy_n(part.Row(y), std::min(part.width(), whole.width() - col), whole.Row(y) + col);
-  }
-}
-
 }  // namespace
 
 Result<DepthRange> RobustDepthRange(const Surface& surface) {
@@ -165,7 +99,7 @@ Result<std::vector<std::uint8_t>> DepthPreview(const Surface& surface, std::opti
   }
   // The bar is a fixed share of the picture, so that its letters stay readable when the picture is scaled down.
   const double scale = max_side_px / 320.0;
-  const int bar_px = static_cast<int>(std::lround(62 * scale));
+  const int bar_px = static_cast<int>(std::lround(kBarWidth * scale));
   const Cells cells = Average(surface, CutOf(surface), max_side_px - bar_px, max_side_px);
   const int map_width = cells.count.width();
   const int height = std::max(cells.count.height(), static_cast<int>(110 * scale));
@@ -177,7 +111,7 @@ Result<std::vector<std::uint8_t>> DepthPreview(const Surface& surface, std::opti
       picture(x, y) = Viridis((range->far_mm - depth) / (range->far_mm - range->near_mm));
     }
   }
-  Paste(ColourBar(*range, height, scale), map_width, picture);
+  Paste(ColourBar({range->near_mm, range->far_mm, "mm", true}, height, scale), map_width, picture);
   return report::EncodePng(picture);
 }
 
