@@ -5,10 +5,49 @@
 
 #include <Eigen/Geometry>
 
+#include "core/vector.h"
+
 namespace striae {
 namespace {
 constexpr int kUndistortIterations = 20;
 constexpr int kDepthIterations = 8;
+
+/// What a row of pixels shares: the projector in its own frame.
+struct PinholeRow {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d center;
+  double focal, center_order, k1;
+};
+
+/// PinholeDepth for many pixels at once. The distortion is undone in a fixed number of steps, each of which makes the
+/// error smaller by k1 (a^2 + b^2), a thousandth on these rigs.
+STRIAE_VECTORISED void PinholeDepths(const PinholeRow& projector, std::size_t count, const double* __restrict ray_x,
+                                     const double* __restrict ray_y, const float* __restrict order,
+                                     double* __restrict depth_mm, double* __restrict depth_per_stripe) {
+  constexpr int kSteps = 4;
+  const Eigen::Matrix3d& r = projector.rotation;
+  const double r00 = r(0, 0), r01 = r(0, 1), r02 = r(0, 2), r10 = r(1, 0), r11 = r(1, 1), r12 = r(1, 2);
+  const double r20 = r(2, 0), r21 = r(2, 1), r22 = r(2, 2);
+  const double cx = projector.center.x(), cy = projector.center.y(), cz = projector.center.z();
+  const double focal = projector.focal, center_order = projector.center_order, k1 = projector.k1;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = ray_x[i], y = ray_y[i];
+    const double dx = r00 * x + r01 * y + r02, dy = r10 * x + r11 * y + r12, dz = r20 * x + r21 * y + r22;
+    const double distorted = (static_cast<double>(order[i]) - center_order) / focal;
+    double b = distorted, m = 1;
+    for (int step = 1; step < kSteps; ++step) {
+      const double z = (cy - b * cz) / (dy - b * dz);
+      const double a = (z * dx - cx) / (z * dz - cz);
+      m = 1 + k1 * (a * a + b * b);
+      b = distorted / m;
+    }
+    const double across = dy - b * dz, z = (cy - b * cz) / across;
+    // dz/db of the quotient; db/dn = 1 / (F m), where m is as good as constant.
+    depth_per_stripe[i] = (z * dz - cz) / across / (focal * m);
+    depth_mm[i] = (z > 0) & (z * dz > cz) ? z : kNone;
+  }
+}
 }  // namespace
 
 Eigen::Vector2d Distort(const CameraModel& camera, const Eigen::Vector2d& u) {
@@ -95,6 +134,22 @@ std::optional<double> StripeOptics::AngularDepth(const Eigen::Vector3d& ray, dou
 
 std::optional<double> StripeOptics::DepthAt(const Eigen::Vector3d& ray, double order) const {
   return projector_.kind == ProjectorModel::Kind::kAngular ? AngularDepth(ray, order) : PinholeDepth(ray, order);
+}
+
+void StripeOptics::DepthsAt(std::size_t count, const double* ray_x, const double* ray_y, const float* order,
+                            double* depth_mm, double* depth_per_stripe) const {
+  if (projector_.kind == ProjectorModel::Kind::kPinhole) {
+    PinholeDepths({projector_from_camera_, center_in_projector_, projector_.focal_stripes, projector_.center_order,
+                   projector_.k1},
+                  count, ray_x, ray_y, order, depth_mm, depth_per_stripe);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d ray(ray_x[i], ray_y[i], 1);
+    const auto z = AngularDepth(ray, static_cast<double>(order[i]));
+    depth_mm[i] = z.value_or(std::numeric_limits<double>::quiet_NaN());
+    depth_per_stripe[i] = z ? DepthPerStripe(ray, *z) : std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
 double StripeOptics::DepthPerStripe(const Eigen::Vector3d& ray, double depth_mm) const {

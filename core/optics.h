@@ -2,6 +2,7 @@
 // Frames: camera: origin at the centre of projection, x right, y down, z forward. Lengths mm, angles rad.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include <Eigen/Core>
@@ -32,6 +33,10 @@ class StripeOptics {
   /// Depth z (mm) where the ray (z = 1) meets the light sheet of order n; nullopt where they do not meet before the
   /// camera. Pinhole: a plane through the projector's centre, bent by its k1 (iterated). Angular: the paper's (4), (5).
   [[nodiscard]] std::optional<double> DepthAt(const Eigen::Vector3d& ray, double order) const;
+  /// The same for a row of `count` pixels whose rays are (ray_x, ray_y, 1): depth and dz/dn (mm per stripe). NaN where
+  /// DepthAt has no answer and where the order is NaN.
+  void DepthsAt(std::size_t count, const double* ray_x, const double* ray_y, const float* order, double* depth_mm,
+                double* depth_per_stripe) const;
   /// dz/dn at that depth along the ray, mm per stripe.
   [[nodiscard]] double DepthPerStripe(const Eigen::Vector3d& ray, double depth_mm) const;
 

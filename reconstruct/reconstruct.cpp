@@ -14,6 +14,9 @@
 namespace striae::reconstruct {
 namespace {
 
+/// Stripes; what a smooth, evenly coloured surface scatters by besides the sensor's noise.
+constexpr double kOrderFloor = 0.0005;
+
 /// Times the stages when there is a clock.
 class Stages {
  public:
@@ -121,19 +124,22 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
   ImageF order = AbsoluteOrder(*phase, out.regions, calibration);
   const std::size_t field = LitField(*phase);
   phase->unwrapped = {};  // an image of this size is 50 MB: what is done with makes room
-  phase->amplitude = phase->background = {};
+  phase->background = {};
   stages.Done("order");
 
-  ImageRgb colour = ColourWithoutStripes(photograph.colour, order, phase->direction);
+  detail::PointImages images;
+  images.colour = ColourWithoutStripes(photograph.colour, order, phase->direction);
   stages.Done("colour");
 
   const double slack_mm = options.outside_working_share * middle_mm;
   const detail::RayTable rays(calibration.camera, photograph.luminance.width(), photograph.luminance.height());
-  const ImageF depth = detail::Triangulate(std::move(order), calibration, rays, calibration.near_mm - slack_mm,
-                                           calibration.far_mm + slack_mm);
+  images.depth = detail::Triangulate(
+      std::move(order), calibration, rays,
+      {calibration.near_mm - slack_mm, calibration.far_mm + slack_mm, kOrderFloor, phase->noise}, phase->amplitude);
+  images.uncertainty = std::move(phase->amplitude);
+  images.modulation = std::move(phase->modulation);
   stages.Done("triangulation");
-  out.surface =
-      detail::BuildSurface(depth, std::move(colour), std::move(phase->modulation), calibration, rays, options.faces);
+  out.surface = detail::BuildSurface(std::move(images), calibration, rays, options.faces);
   stages.Done("mesh");
   if (out.surface.size() == 0) {
     return Fail(ErrorCode::kMeasurementRefused, "no point lies within the working distance of " +

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "reconstruct/detail/vector.h"
+#include "core/vector.h"
 
 namespace striae::reconstruct::detail {
 namespace {

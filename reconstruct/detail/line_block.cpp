@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reconstruct/detail/vector.h"
+#include "core/vector.h"
 
 namespace striae::reconstruct::detail {
 namespace {

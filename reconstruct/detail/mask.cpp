@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/vector.h"
 #include "reconstruct/detail/parallel.h"
-#include "reconstruct/detail/vector.h"
 
 namespace striae::reconstruct::detail {
 namespace {

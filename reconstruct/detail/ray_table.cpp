@@ -1,14 +1,35 @@
 #include "reconstruct/detail/ray_table.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/optics.h"
-#include "reconstruct/detail/parallel.h"
+#include "core/vector.h"
 
 namespace striae::reconstruct::detail {
 namespace {
+
 constexpr double kLargestError_px = 2e-5;
+
+/// Powers of t of the cubic through p(-1), p(0), p(1), p(2), for t from 0 to 1.
+template <typename T>
+std::array<T, 4> CubicThrough(const T& before, const T& at, const T& next, const T& after) {
+  return {at, next - before / 3 - at / 2 - after / 6, (before + next) / 2 - at, (after - before) / 6 + (at - next) / 2};
 }
+
+template <typename T>
+T ValueAt(const std::array<T, 4>& cubic, double t) {
+  return cubic[0] + t * (cubic[1] + t * (cubic[2] + t * cubic[3]));
+}
+
+STRIAE_VECTORISED void FillCell(const std::array<double, 4>& cubic, int count, double* out) {
+  for (int k = 0; k < count; ++k) {
+    const double t = static_cast<double>(k) / count;
+    out[k] = cubic[0] + t * (cubic[1] + t * (cubic[2] + t * cubic[3]));
+  }
+}
+
+}  // namespace
 
 RayTable::RayTable(const CameraModel& camera, int width, int height) : width_(width), height_(height) {
   for (;; step_ /= 2) {
@@ -18,46 +39,48 @@ RayTable::RayTable(const CameraModel& camera, int width, int height) : width_(wi
 }
 
 void RayTable::Fill(const CameraModel& camera) {
-  nodes_ = Image<Eigen::Vector2d>((width_ - 1) / step_ + 2, (height_ - 1) / step_ + 2, Eigen::Vector2d::Zero());
-  ParallelLines(nodes_.height(), [&](int y) {
+  const int columns = (width_ - 1) / step_ + 1, rows = (height_ - 1) / step_ + 1;  // cells
+  nodes_ = Image<Eigen::Vector2d>(columns + 3, rows + 3, Eigen::Vector2d::Zero());
+  for (int y = 0; y < nodes_.height(); ++y) {
     for (int x = 0; x < nodes_.width(); ++x) {
-      nodes_(x, y) = RayOf(camera, {static_cast<double>(x * step_), static_cast<double>(y * step_)}).head<2>();
+      nodes_(x, y) =
+          RayOf(camera, {static_cast<double>((x - 1) * step_), static_cast<double>((y - 1) * step_)}).head<2>();
     }
-  });
+  }
 }
 
 double RayTable::ErrorAtCorners(const CameraModel& camera) const {
   double largest = 0;
-  for (const int x : {0, nodes_.width() - 2}) {
-    for (const int y : {0, nodes_.height() - 2}) {
-      const Eigen::Vector2d pixel((x + 0.5) * step_, (y + 0.5) * step_);
-      const Eigen::Vector2d error = At(pixel.x(), pixel.y()) - RayOf(camera, pixel).head<2>();
+  RowOfRays rays;
+  const int half = step_ / 2;
+  for (const int row : {std::min(half, height_ - 1), std::max(0, height_ - 1 - half)}) {
+    Row(row, rays);
+    for (const int col : {std::min(half, width_ - 1), std::max(0, width_ - 1 - half)}) {
+      const Eigen::Vector2d found(rays.x[static_cast<std::size_t>(col)], rays.y[static_cast<std::size_t>(col)]);
+      const Eigen::Vector2d error =
+          found - RayOf(camera, {static_cast<double>(col), static_cast<double>(row)}).head<2>();
       largest = std::max(largest, error.cwiseProduct(Eigen::Vector2d(camera.fx, camera.fy)).norm());
     }
   }
   return largest;
 }
 
-Eigen::Vector2d RayTable::At(double col, double row) const {
-  const int x = static_cast<int>(col) / step_, y = static_cast<int>(row) / step_;
-  const double u = col / step_ - x, v = row / step_ - y;
-  return (1 - v) * ((1 - u) * nodes_(x, y) + u * nodes_(x + 1, y)) +
-         v * ((1 - u) * nodes_(x, y + 1) + u * nodes_(x + 1, y + 1));
-}
-
-void RayTable::Row(int row, std::vector<Eigen::Vector2d>& rays) const {
-  rays.resize(static_cast<std::size_t>(width_));
+void RayTable::Row(int row, RowOfRays& rays) const {
+  const int cells = nodes_.width() - 3;
+  rays.x.resize(static_cast<std::size_t>(cells * step_));
+  rays.y.resize(rays.x.size());
   const int y = row / step_;
-  const double v = static_cast<double>(row % step_) / step_;
-  const auto node = [&](int x) -> Eigen::Vector2d { return (1 - v) * nodes_(x, y) + v * nodes_(x, y + 1); };
-  Eigen::Vector2d left = node(0);
-  for (int x = 0; x * step_ < width_; ++x) {
-    const Eigen::Vector2d right = node(x + 1);
-    const int last = std::min(width_, (x + 1) * step_);
-    for (int col = x * step_; col < last; ++col) {
-      rays[static_cast<std::size_t>(col)] = left + (right - left) * (static_cast<double>(col - x * step_) / step_);
-    }
-    left = right;
+  const double t = static_cast<double>(row % step_) / step_;
+  const auto node = [&](int x) -> Eigen::Vector2d {
+    return ValueAt(CubicThrough<Eigen::Vector2d>(nodes_(x, y), nodes_(x, y + 1), nodes_(x, y + 2), nodes_(x, y + 3)),
+                   t);
+  };
+  std::array<Eigen::Vector2d, 4> around = {node(0), node(1), node(2), node(3)};
+  for (int cell = 0; cell < cells; ++cell) {
+    if (cell > 0) around = {around[1], around[2], around[3], node(cell + 3)};
+    const auto at = static_cast<std::size_t>(cell * step_);
+    FillCell(CubicThrough(around[0].x(), around[1].x(), around[2].x(), around[3].x()), step_, rays.x.data() + at);
+    FillCell(CubicThrough(around[0].y(), around[1].y(), around[2].y(), around[3].y()), step_, rays.y.data() + at);
   }
 }
 

@@ -10,21 +10,25 @@
 
 namespace striae::reconstruct::detail {
 
-/// Ray directions (x/z, y/z) on a grid of the sensor, linear in between. The grid is made so fine that the error stays
-/// below 2e-5 px at the sensor's corners, where the distortion bends most.
+/// The rays (x, y, 1) of a row of pixels.
+struct RowOfRays {
+  std::vector<double> x, y;
+};
+
+/// Ray directions (x/z, y/z) on a grid of the sensor, cubic (Lagrange) in between. The grid is made so fine that the
+/// error stays below 2e-5 px at the sensor's corners, where the distortion bends most.
 class RayTable {
  public:
   RayTable(const CameraModel& camera, int width, int height);
-  /// Rays (z = 1) of every pixel of a row; resizes `rays` to the sensor's width.
-  void Row(int row, std::vector<Eigen::Vector2d>& rays) const;
+  /// Rays of every pixel of a row (and of a few beyond its end).
+  void Row(int row, RowOfRays& rays) const;
 
  private:
   void Fill(const CameraModel& camera);
   [[nodiscard]] double ErrorAtCorners(const CameraModel& camera) const;
-  [[nodiscard]] Eigen::Vector2d At(double col, double row) const;
 
-  int width_, height_, step_ = 16;
-  Image<Eigen::Vector2d> nodes_;
+  int width_, height_, step_ = 64;
+  Image<Eigen::Vector2d> nodes_;  ///< node (i, j) is the pixel ((i - 1) step, (j - 1) step)
 };
 
 }  // namespace striae::reconstruct::detail

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include "core/vector.h"
 #include "reconstruct/detail/parallel.h"
-#include "reconstruct/detail/vector.h"
 
 namespace striae::reconstruct::detail {
 namespace {
