@@ -50,8 +50,9 @@ Status Develop(LibRaw& raw, std::span<const std::uint8_t> bytes) {
   parameters.gamm[0] = parameters.gamm[1] = 1;
   parameters.no_auto_bright = 1;
   parameters.user_flip = 0;
-  parameters.user_qual = 0;  // bilinear
-  parameters.highlight = 0;  // full is full: white stays white
+  parameters.user_qual = 0;           // bilinear
+  parameters.highlight = 0;           // full is full: white stays white
+  parameters.adjust_maximum_thr = 0;  // and not the brightest value of this one photograph
   parameters.max_raw_memory_mb = 1024;
   const auto check = [&](int code) -> Status {
     if (code != LIBRAW_SUCCESS) return Bad(std::string("the raw file cannot be read (") + libraw_strerror(code) + ")");

@@ -58,7 +58,7 @@ TEST(DecodePhotograph, SixteenBitsKeepTheirFineSteps) {
 }
 
 TEST(DecodePhotograph, ATruncatedFileIsAnErrorAndNeverAGreyRest) {
-  for (const char* extension : {".jpg", ".png"}) {
+  for (const char* extension : {".jpg", ".png", ".tiff", ".bmp"}) {
     const auto whole = Encoded(extension, CV_8UC3);
     for (const double share : {0.1, 0.5, 0.9, 0.99}) {
       const auto size = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
@@ -66,6 +66,16 @@ TEST(DecodePhotograph, ATruncatedFileIsAnErrorAndNeverAGreyRest) {
       ASSERT_FALSE(photograph) << extension << " " << share;
       EXPECT_EQ(photograph.error().code, ErrorCode::kBadImage);
     }
+  }
+}
+
+TEST(DecodePhotograph, SixteenBitsAreReadFromTiffToo) {
+  for (const int type : {CV_16UC3, CV_16U}) {
+    const auto photograph = DecodePhotograph(Encoded(".tiff", type));
+    ASSERT_TRUE(photograph) << photograph.error().message;
+    // Red alone at the end of the first row: its share of the luminance, and all of it where there is only grey.
+    EXPECT_NEAR(photograph->luminance(63, 0), type == CV_16U ? 1.0 : 0.2126, 1e-6);
+    EXPECT_FALSE(photograph->linear);
   }
 }
 
