@@ -8,6 +8,7 @@
 
 #include "analysis/head/measure.h"
 #include "analysis/wound/wound.h"
+#include "app/device_checks.h"
 #include "app/io/files.h"
 #include "app/io/photograph.h"
 #include "app/io/preview.h"
@@ -57,6 +58,16 @@ bool SameSources(const Provenance& provenance, const std::vector<ProvenanceInput
     });
   };
   return std::all_of(sources.begin(), sources.end(), holds);
+}
+
+constexpr const char* kDeviceCheck = "device check";
+
+/// Whether the doubts that a result was flagged with are those that there are now.
+bool SameDoubts(const Provenance& provenance, const std::vector<ProvenanceInput>& sources) {
+  const auto doubts = [](const std::vector<ProvenanceInput>& inputs) {
+    return std::count_if(inputs.begin(), inputs.end(), [](const ProvenanceInput& i) { return i.name == kDeviceCheck; });
+  };
+  return doubts(provenance.inputs) == doubts(sources);
 }
 
 Provenance NewProvenance(std::vector<ProvenanceInput> inputs) {
@@ -189,13 +200,18 @@ class Run {
       }
       sources.push_back({"neutral photograph", neutral->capture.sha256});
     }
+    // A neutral pose in doubt puts every pose that is measured against it in doubt.
+    auto doubt = DoubtAbout(record_, item);
+    if (doubt && !*doubt && neutral != nullptr) doubt = DoubtAbout(record_, *neutral);
+    if (!doubt) return Fail(doubt.error());
+    if (*doubt) sources.push_back({kDeviceCheck, (*doubt)->evidence});
     if (const Outcome* known = InForce(item, processed.analysis);
-        known && SameSources(known->report.provenance, sources)) {
+        known && SameSources(known->report.provenance, sources) && SameDoubts(known->report.provenance, sources)) {
       processed.state = known->failure ? Processed::State::kFailed : Processed::State::kUpToDate;
       processed.text = known->failure ? known->failure->Describe() : Summary(known->report);
       return processed;
     }
-    return Measure(item, neutral, sources, processed);
+    return Measure(item, neutral, sources, *doubt, processed);
   }
 
  private:
@@ -213,7 +229,7 @@ class Run {
   }
 
   Result<Processed> Measure(const WorkItem& item, const WorkItem* neutral, const std::vector<ProvenanceInput>& sources,
-                            Processed processed) {
+                            const std::optional<store::Doubt>& doubt, Processed processed) {
     auto surface = SurfaceOf(record_, item);
     if (!surface) return Failed(item, sources, surface.error(), processed);
     if (processed.analysis == kSurfaceKind) {
@@ -228,6 +244,7 @@ class Run {
     if (!report) return Failed(item, sources, report.error(), processed);
     report->provenance.version = std::string(StriaeVersion());
     report->provenance.inputs = inputs;
+    if (doubt) Flag(*report, *doubt);
     const auto added = record_.AddReport(NewId<ReportId>(), item.capture.id, *report, NewStamp());
     if (!added) return Fail(added.error());
     processed.state = Processed::State::kMeasured;

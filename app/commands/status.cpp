@@ -1,4 +1,5 @@
 // `striae status`: where the study stands and what is pending.
+#include "app/device_checks.h"
 #include "app/study.h"
 #include "store/json.h"
 
@@ -32,11 +33,14 @@ Status Print(Context& run) {
   if (!sites) return Fail(sites.error());
   const auto overview = record->GetOverview();
   if (!overview) return Fail(overview.error());
+  const auto failed = DevicesOutOfTolerance(*record);
+  if (!failed) return Fail(failed.error());
   nlohmann::json document = store::ToJson(*overview);
+  document["devices_out_of_tolerance"] = ToJson(*failed);
   document["study"] = store::ToJson(*study);
   document["sites"] = nlohmann::json::array();
   for (const Site& site : *sites) document["sites"].push_back(store::ToJson(site));
-  run.Output(document, TextOf(*study, *overview));
+  run.Output(document, TextOf(*failed) + TextOf(*study, *overview));
   return {};
 }
 
