@@ -87,6 +87,19 @@ void Change::Set(const std::string& table, const std::string& id, const std::str
   Audit(std::move(row));
 }
 
+void Change::Account(const std::string& table, const std::string& id, const std::string& column, const json& before,
+                     const json& after, const std::string& reason) {
+  AuditRow row;
+  row.action = "change";
+  row.entity = table;
+  row.entity_id = id;
+  row.field = column;
+  row.old_value = before.dump();
+  row.new_value = after.dump();
+  row.reason = CleanText(reason);
+  Audit(std::move(row));
+}
+
 void Change::Note(const std::string& what, const std::string& field, const std::string& before,
                   const std::string& after) {
   AuditRow row;

@@ -31,6 +31,9 @@ class Change {
   /// A new value of one column; nothing happens when it has that value already.
   void Set(const std::string& table, const std::string& id, const std::string& column, const Value& value,
            const std::string& reason);
+  /// The audit row of a change that was made otherwise (a merge, which must step over its own provisional values).
+  void Account(const std::string& table, const std::string& id, const std::string& column, const nlohmann::json& before,
+               const nlohmann::json& after, const std::string& reason);
   /// An audit row for what is no row of a table (the file's own format).
   void Note(const std::string& what, const std::string& field, const std::string& before, const std::string& after);
   void Commit();

@@ -5,6 +5,7 @@
 
 #include "store/detail/check.h"
 #include "store/detail/schema.h"
+#include "store/identity.h"
 
 namespace striae::store::detail {
 
@@ -81,6 +82,11 @@ std::vector<fs::path> Leftovers(const fs::path& study) {
 }
 
 void CheckLeftovers(const fs::path& study, Findings& findings) {
+  if (fs::exists(study / kIdentityName)) {
+    if (const Status whole = CheckIdentityFile(study / kIdentityName); !whole) {
+      findings.Error(kIdentityName, whole.error().message);
+    }
+  }
   for (const fs::path& path : Leftovers(study)) {
     findings.Warning(path.lexically_relative(study).string(),
                      "is unfinished: left by a program that was stopped; 'striae check --repair' settles it");

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <thread>
 
+#include "store/identity.h"
 #include "tests/store/findings.h"
 #include "tests/support/files.h"
 
@@ -28,7 +29,8 @@ class BackupTest : public ::testing::Test {
 };
 
 TEST_F(BackupTest, RestoresToEqualHashes) {
-  WriteBytes(study_.folder() / "identity.striae", {1, 2, 3});
+  const fs::path identity = study_.folder() / store::kIdentityName;
+  ASSERT_THAT(store::WriteIdentities(identity, {}, "four random words", {}, {1, 8192}), IsOk());
   WriteBytes(study_.folder() / "quarantine/abc-DSC_0001.JPG", {4, 5});
   const auto head = *study_->Head();
   const auto report = Backup();
@@ -44,7 +46,7 @@ TEST_F(BackupTest, RestoresToEqualHashes) {
   EXPECT_EQ(record->Head()->hash, head.hash);
   EXPECT_TRUE(record->Check(head)->findings.empty());
   EXPECT_THAT(record->objects().Get(capture_.sha256), IsOk());
-  EXPECT_EQ(ReadBytes(again / "identity.striae"), (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_EQ(ReadBytes(again / store::kIdentityName), ReadBytes(identity));
   EXPECT_EQ(ReadBytes(again / "quarantine/abc-DSC_0001.JPG"), (std::vector<std::uint8_t>{4, 5}));
 }
 
