@@ -1,5 +1,6 @@
 // The grating's own edge: where only the stripes end.
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "reconstruct/detail/order_lines.h"
@@ -24,6 +25,8 @@ struct LineEnd {
   double last = 0;   ///< relative order of the outermost pixel
   double order = 0;  ///< where the amplitude falls to half
   bool votes = false;
+  int line = 0, crossing = 0;      ///< where that is
+  double plateau = 0, beyond = 0;  ///< amplitude inside, background outside
 };
 
 /// Means along a line over positions from `from`, going by `step`.
@@ -50,11 +53,57 @@ class EndReader {
     const auto crossing = Crossing(line, start, inwards, plateau / 2);
     if (!crossing) return found;
     found.order = at_start + slope * (*crossing - start);
-    found.votes = OnlyTheStripesEnd(line, static_cast<int>(std::lround(*crossing)), start, inwards, plateau);
+    found.line = line;
+    found.crossing = static_cast<int>(std::lround(*crossing));
+    found.plateau = plateau;
+    found.votes = OnlyTheStripesEnd(start, inwards, found);
     return found;
   }
 
+  /// A wall behind a body that ends here: beside the end it carries stripes, so what lies beyond may be the body's
+  /// shadow on it; or it looks like what lies beyond, and its own stripes begin elsewhere. `side` is -1 or +1, from the
+  /// outermost line of the end outwards.
+  [[nodiscard]] bool IsWall(const LineEnd& end, int side, int inwards) const {
+    constexpr double kAlike = 0.12, kStriped = 0.1;
+    int walls = 0;
+    for (const double away : {1.5, 2.5, 3.5}) {
+      const int line = end.line + side * static_cast<int>(std::lround(away * period_));
+      if (line < 0 || line >= lines_.count()) continue;
+      const Mean out = Beyond(line, end.crossing, inwards);
+      if (out.count >= period_ / 5 && Striped(line, end.crossing, inwards)) {
+        ++walls;
+        continue;
+      }
+      if (out.count < period_ / 5 || std::abs(std::log(out.background / end.beyond)) > kAlike) continue;
+      const int from = end.crossing + inwards * static_cast<int>(period_),
+                to = end.crossing + inwards * static_cast<int>(3 * period_);
+      if (MeanOver(line, from, to).amplitude > kStriped * end.plateau) continue;
+      for (int at = to; lines_.Has(at); at += inwards * std::max(1, static_cast<int>(period_ / 2))) {
+        if (lines_.At(phase_.mask, line, at) == 0) continue;
+        ++walls;
+        break;
+      }
+    }
+    return walls >= 2;
+  }
+
  private:
+  [[nodiscard]] Mean Beyond(int line, int crossing, int inwards) const {
+    return MeanOver(line, crossing - inwards * 1.75 * period_, crossing - inwards * 3.5 * period_);
+  }
+
+  /// Most of what `Beyond` looks at is within the mask.
+  [[nodiscard]] bool Striped(int line, int crossing, int inwards) const {
+    int striped = 0, count = 0;
+    for (double away = 1.75; away <= 3.5; away += 0.25) {
+      const int at = crossing - inwards * static_cast<int>(away * period_);
+      if (!lines_.Has(at)) continue;
+      ++count;
+      striped += lines_.At(phase_.mask, line, at) != 0 ? 1 : 0;
+    }
+    return 2 * striped > count;
+  }
+
   /// Median amplitude over a few periods from the end inwards: what the stripes fall from.
   [[nodiscard]] double Plateau(int line, int end, int inwards) const {
     std::vector<double> values;
@@ -91,9 +140,11 @@ class EndReader {
   }
 
   /// Room light still shows the surface beyond, without stripes there or anywhere further out on the line.
-  [[nodiscard]] bool OnlyTheStripesEnd(int line, int crossing, int start, int inwards, double plateau) const {
-    const Mean out = MeanOver(line, crossing - inwards * 1.75 * period_, crossing - inwards * 3.5 * period_);
+  [[nodiscard]] bool OnlyTheStripesEnd(int start, int inwards, LineEnd& end) const {
+    const auto [line, crossing, plateau] = std::tuple(end.line, end.crossing, end.plateau);
+    const Mean out = Beyond(line, crossing, inwards);
     const Mean in = MeanOver(line, start, start + inwards * 2.0 * period_);
+    end.beyond = out.background;
     if (out.count < period_ / 5 || in.count == 0 || in.background <= 0) return false;
     const double ambient = out.background / in.background;
     const double modulation = out.amplitude / std::max(1e-9, out.background) / (in.amplitude / in.background);
@@ -112,7 +163,7 @@ class EndReader {
 };
 
 /// Reduces what the lines show at one end to an edge, if it is one. `outwards` is -1 at the low orders.
-std::optional<GratingEdge> JudgeEdge(const std::vector<LineEnd>& ends, int outwards) {
+std::optional<GratingEdge> JudgeEdge(const std::vector<LineEnd>& ends, int outwards, const EndReader& reader) {
   std::vector<double> orders;
   for (const LineEnd& end : ends) {
     if (end.votes) orders.push_back(end.order);
@@ -121,8 +172,12 @@ std::optional<GratingEdge> JudgeEdge(const std::vector<LineEnd>& ends, int outwa
   const double median = MedianOf(orders);
   // The lines that belong to the edge: the others end at the subject's own border.
   std::vector<double> near;
-  for (const double order : orders) {
-    if (std::abs(order - median) < 0.5) near.push_back(order);
+  const LineEnd *first = nullptr, *last = nullptr;
+  for (const LineEnd& end : ends) {
+    if (!end.votes || std::abs(end.order - median) >= 0.5) continue;
+    near.push_back(end.order);
+    if (first == nullptr) first = &end;
+    last = &end;
   }
   const double share = static_cast<double>(near.size()) / static_cast<double>(ends.size());
   if (static_cast<int>(near.size()) < kFewestLines || share < kLeastShare) return std::nullopt;
@@ -134,6 +189,7 @@ std::optional<GratingEdge> JudgeEdge(const std::vector<LineEnd>& ends, int outwa
       std::count_if(ends.begin(), ends.end(), [&](const LineEnd& end) { return outwards * (end.last - center) > 0.5; });
   if (scatter > kLargestScatter) return std::nullopt;
   if (static_cast<double>(beyond) > kLargestBeyond * static_cast<double>(ends.size())) return std::nullopt;
+  if (reader.IsWall(*first, -1, -outwards) || reader.IsWall(*last, +1, -outwards)) return std::nullopt;
   return GratingEdge{center, scatter, static_cast<int>(near.size()), share};
 }
 
@@ -163,7 +219,7 @@ std::vector<RegionEdges> FindGratingEdges(const PhaseResult& phase, int regions)
       low.push_back(reader.Read(line, first, +1));
       high.push_back(reader.Read(line, last, -1));
     }
-    edges.push_back({JudgeEdge(low, -1), JudgeEdge(high, +1)});
+    edges.push_back({JudgeEdge(low, -1, reader), JudgeEdge(high, +1, reader)});
   }
   return edges;
 }
