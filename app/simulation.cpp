@@ -83,6 +83,8 @@ rig::CameraTags Simulation::Tags() const {
   tags.subsecond = fmt::format("{:02}", photographs_.size() % 100);
   tags.iso = static_cast<int>(options_.render.sensor.iso);
   tags.orientation = options_.orientation;
+  tags.focus_mm = options_.render.sensor.focus_mm;
+  tags.shutter_count += static_cast<int>(photographs_.size());
   return tags;
 }
 
