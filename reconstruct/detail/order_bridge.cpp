@@ -168,8 +168,8 @@ std::optional<RegionOrder> CoarseDepth::Continued(int region) const {
 }
 
 double ShareBehindNecks(const PhaseResult& phase, int region) {
-  const int cell = std::max(2, static_cast<int>(phase.carrier_period_px / 2));
-  constexpr int kErode = 2;  // cells: one stripe from either side of a neck
+  const int cell = std::max(2, static_cast<int>(phase.carrier_period_px / 3));
+  constexpr int kErode = 4;  // cells: one and a third of a stripe from either side of a neck
   const int width = phase.mask.width() / cell, height = phase.mask.height() / cell;
   // Distance in cells to the nearest cell that is not all of the region (chessboard metric, two passes).
   Image<std::int32_t> depth(width, height, 0);
