@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/catalogue.h"
+#include "app/study.h"
 #include "app/versions.h"
 
 namespace {
@@ -23,6 +24,8 @@ void Describe(CLI::App& program, Context& context) {
       "Each command explains itself: striae COMMAND --help");
   program.set_version_flag("--version", [] { return striae::app::VersionText(); });
   program.add_option("-C", context.study, "The study's folder")->type_name("DIR")->default_val(".");
+  program.add_option_function<std::string>("--user", striae::app::ActAs,
+                                           "Who does this (else STRIAE_USER, else the login name)");
   program.require_subcommand(1);
   program.footer("Example:\n  striae reconstruct DSC_0001.JPG --calibration rig.json --out surface.ply");
 }

@@ -4,15 +4,25 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <iostream>
 
 #include <pwd.h>
 #include <sodium.h>
 #include <unistd.h>
 
+#include "store/as_of.h"
+
 namespace striae::app {
 namespace {
 
+/// Who uses this program is a property of the process.
+std::string& Operator() {
+  static std::string name;
+  return name;
+}
+
 std::string UserName() {
+  if (!Operator().empty()) return Operator();
   if (const char* name = std::getenv("STRIAE_USER"); name != nullptr && *name != '\0') return name;
   if (const passwd* entry = ::getpwuid(::geteuid()); entry != nullptr) return entry->pw_name;
   return "uid " + std::to_string(::geteuid());
@@ -35,6 +45,8 @@ std::string ZoneName() {
 
 }  // namespace
 
+void ActAs(const std::string& user) { Operator() = user; }
+
 store::Stamp NewStamp() {
   using std::chrono::system_clock;
   const system_clock::time_point now = system_clock::now();
@@ -56,7 +68,29 @@ Uuid NewUuid() {
   return Uuid::FromRandom(random);
 }
 
-Result<store::Record> OpenStudy(const Context& context) { return store::Record::Open(context.study, NewStamp()); }
+Result<store::Record> OpenStudy(const Context& context) {
+  auto record = store::Record::Open(context.study, NewStamp());
+  if (record) {
+    record->WhenBusy([] { std::cerr << "waiting: another program is writing to this study\n"; });
+  }
+  return record;
+}
+
+Result<store::Record> OpenStudyAsOf(const Context& context, const std::string& utc) {
+  auto record = OpenStudy(context);
+  if (!record || utc.empty()) return record;
+  // A day alone means its end.
+  const auto instant = UtcTime::Parse(utc.size() == 10 ? utc + "T23:59:59.999Z" : utc);
+  if (!instant) return Fail(ErrorCode::kUsage, "--as-of is a time in UTC: 2026-05-04T12:00:00Z");
+  return store::AsOf(*record, *instant);
+}
+
+Result<store::Record::Found> FindTarget(store::Record& record, const std::string& text) {
+  if (text != "study") return record.Find(text);
+  const auto study = record.GetStudy();
+  if (!study) return Fail(study.error());
+  return store::Record::Found{"study", study->id.ToString()};
+}
 
 Result<SessionId> ParseSessionId(const std::string& text) {
   auto id = SessionId::Parse(text);

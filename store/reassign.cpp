@@ -204,4 +204,13 @@ Result<std::vector<Reassignment>> Reassignments(Record& record, std::optional<st
   });
 }
 
+Result<std::vector<CaptureId>> StaleCaptures(Record& record) {
+  return Guarded([&] {
+    return Access::Of(record).database.Rows(
+        "SELECT DISTINCT o.capture_id FROM stale_mark k JOIN outcome o ON o.capture_id = k.capture_id AND o.number <= "
+        "k.outcomes WHERE NOT EXISTS (SELECT 1 FROM outcome newer WHERE newer.supersedes = o.id) ORDER BY 1",
+        [](const RowView& row) { return row.Key<CaptureId>(0); });
+  });
+}
+
 }  // namespace striae::store

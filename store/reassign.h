@@ -33,4 +33,7 @@ Status ReassignSession(Record& record, const SessionId& session, const SubjectId
 /// Of one capture or session, or all; oldest first.
 Result<std::vector<Reassignment>> Reassignments(Record& record, std::optional<std::string> moved = std::nullopt);
 
+/// Captures whose outcome in force was computed for their place before.
+Result<std::vector<CaptureId>> StaleCaptures(Record& record);
+
 }  // namespace striae::store

@@ -1,4 +1,7 @@
 // `striae consent`: a subject's consent and its withdrawal.
+#include <algorithm>
+
+#include "app/sign_in.h"
 #include "app/study.h"
 #include "store/json.h"
 
@@ -7,7 +10,20 @@ namespace {
 
 struct Options {
   std::string pseudonym, given, withdrawn, reason;
+  SignInOptions sign_in;
 };
+
+/// A withdrawal must always be possible: sign-in is asked for only where a user could sign in.
+Status SignInWherePossible(store::Record& record, const SignInOptions& options) {
+  const auto users = store::Users(record);
+  if (!users) return Fail(users.error());
+  const bool possible = std::any_of(users->begin(), users->end(), [](const store::User& user) {
+    return user.active && user.has_passphrase && store::May(user.role, store::Act::kWithdraw);
+  });
+  if (!possible) return {};
+  const auto by = SignInFor(record, options, store::Act::kWithdraw);
+  return by ? Status{} : Status(Fail(by.error()));
+}
 
 Status Enter(store::Record& record, const SubjectId& id, const Options& options, const Date& date,
              const store::Stamp& stamp) {
@@ -22,6 +38,9 @@ Status Run(Context& run, const Options& options) {
   if (!record) return Fail(record.error());
   const auto subject = record->SubjectByPseudonym(options.pseudonym);
   if (!subject) return Fail(subject.error());
+  if (!options.withdrawn.empty()) {
+    if (const Status by = SignInWherePossible(*record, options.sign_in); !by) return Fail(by.error());
+  }
   const store::Stamp stamp = NewStamp();
   if (date->DaysSinceEpoch() > Date::Of(stamp.now).DaysSinceEpoch() + 1) {
     run.Note("note: " + date->ToString() + " lies in the future of this machine's clock");
@@ -49,6 +68,7 @@ void AddCommand_consent(CLI::App& root, Context& context) {
       command->add_option("--withdrawn", options->withdrawn, "Day on which it was withdrawn; photographs stop");
   given->excludes(withdrawn);
   command->add_option("--reason", options->reason, "Why it was withdrawn, if the subject says so")->needs(withdrawn);
+  AddSignInOptions(*command, options->sign_in);
   OnRun(command, context, [options](Context& run) -> Status {
     if (options->given.empty() && options->withdrawn.empty()) {
       return Fail(ErrorCode::kUsage, "say --given DATE or --withdrawn DATE");

@@ -27,10 +27,15 @@ void AddCommand_init(CLI::App& root, Context& context) {
   command->add_option("--site-name", options->site.name, "Name of the site");
   command->add_option("--time-zone", options->site.time_zone,
                       "IANA name of the site's time zone (default: this machine's)");
+  command->add_option("--subject-pattern", options->study.subject_pattern,
+                      "Pattern of pseudonyms: # a digit, ? a capital letter, C at its end a check digit (S###C)");
+  command->add_option("--check-digit", options->study.check_digit,
+                      "Method of the check digit: iso7064 (default), luhn or verhoeff");
   OnRun(command, context, [options](Context& run) -> Status {
     const store::Stamp stamp = NewStamp();
     Study study = options->study;
     study.id = NewId<StudyId>();
+    if (study.check_digit.empty() && study.subject_pattern.ends_with('C')) study.check_digit = "iso7064";
     Site site = options->site;
     site.id = NewId<SiteId>();
     if (site.time_zone.empty()) site.time_zone = stamp.zone;

@@ -8,7 +8,7 @@ namespace striae::app {
 namespace {
 
 struct Options {
-  std::string subject, session;
+  std::string subject, session, as_of;
   bool all = false;
 };
 
@@ -36,12 +36,14 @@ std::string LineOf(const store::ResultRow& row) {
   line.resize(std::max<std::size_t>(line.size() + 1, 48), ' ');
   line += numbers;
   if (m.status == Measurement::Status::kFlagged) line += "  flagged: " + m.reason;
+  if (row.excluded) line += "  excluded: " + *row.excluded;
+  if (row.stale) line += "  stale: reassigned since, process it again";
   if (row.superseded) line += "  (superseded)";
   return line;
 }
 
 Status Print(Context& run, const Options& options) {
-  auto record = OpenStudy(run);
+  auto record = OpenStudyAsOf(run, options.as_of);
   if (!record) return Fail(record.error());
   const auto filter = FilterOf(*record, options);
   if (!filter) return Fail(filter.error());
@@ -66,6 +68,7 @@ void AddCommand_results(CLI::App& root, Context& context) {
   command->add_option("--subject", options->subject, "Only those of this subject");
   command->add_option("--session", options->session, "Only those of this session");
   command->add_flag("--all", options->all, "Superseded measurements too");
+  command->add_option("--as-of", options->as_of, "As the study stood then, UTC: 2026-05-04T12:00:00Z");
   OnRun(command, context, [options](Context& run) { return Print(run, *options); });
 }
 

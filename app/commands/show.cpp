@@ -24,8 +24,8 @@ void Append(const nlohmann::json& value, const std::string& indent, std::string&
   }
 }
 
-Status Show(Context& run, const std::string& id) {
-  auto record = OpenStudy(run);
+Status Show(Context& run, const std::string& id, const std::string& as_of) {
+  auto record = OpenStudyAsOf(run, as_of);
   if (!record) return Fail(record.error());
   const auto described = record->Describe(id);
   if (!described) return Fail(described.error());
@@ -47,7 +47,9 @@ void AddCommand_show(CLI::App& root, Context& context) {
                    "A pseudonym, a device's serial, a SHA-256, or the id (or its first eight or more characters) of a "
                    "session, capture, report or measurement")
       ->required();
-  OnRun(command, context, [id](Context& run) { return Show(run, *id); });
+  auto as_of = std::make_shared<std::string>();
+  command->add_option("--as-of", *as_of, "As the study stood then, UTC: 2026-05-04T12:00:00Z");
+  OnRun(command, context, [id, as_of](Context& run) { return Show(run, *id, *as_of); });
 }
 
 }  // namespace striae::app
