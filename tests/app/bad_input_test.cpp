@@ -1,5 +1,6 @@
 // Every kind of bad input, through the program: a clear error that says what to do, the right exit code, and nothing
 // half-written.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -94,6 +95,29 @@ TEST(BadPhotograph, Missing) {
   ExpectRefused(Scene::Get().photograph(), "no-such-calibration.json", "no-such-calibration.json does not exist");
 }
 
+TEST(BadPhotograph, EmptyFolderOrOfTwoHundredMegapixels) {
+  const TempDir folder;
+  Write(folder / "empty.jpg", "");
+  ExpectRefused(folder / "empty.jpg", Scene::Get().calibration(), "the file is empty");
+  fs::create_directory(folder / "folder.jpg");
+  ExpectRefused(folder / "folder.jpg", Scene::Get().calibration(), "is a folder, not a file");
+  cv::imwrite((folder / "huge.png").string(), cv::Mat(16, 16, CV_8UC1, cv::Scalar(9)));
+  std::string huge = ReadText(folder / "huge.png");
+  for (const std::size_t at : {std::size_t{18}, std::size_t{22}}) {  // 14142 x 14142
+    huge[at] = static_cast<char>(14142 >> 8);
+    huge[at + 1] = static_cast<char>(14142 & 0xff);
+  }
+  Write(folder / "huge.png", huge);
+  ExpectRefused(folder / "huge.png", Scene::Get().calibration(), "more than 100 megapixels");
+}
+
+TEST(BadPhotograph, ItsContentCountsAndNotItsName) {
+  const TempDir folder, out;
+  fs::copy_file(Scene::Get().photograph(), folder / "limb.png");
+  const Ran ran = Striae({"phase", (folder / "limb.png").string(), "--out", (out / "phase.tiff").string()});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+}
+
 TEST(BadPhotograph, PhaseRefusesItToo) {
   const TempDir folder, out;
   Write(folder / "text.jpg", "this is no photograph");
@@ -110,9 +134,33 @@ TEST(BadCalibration, NamesTheField) {
     ExpectRefused(Scene::Get().photograph(), folder / "cal.json", "[bad-calibration]");
   }
   auto rig = nlohmann::json::parse(ReadText(Scene::Get().calibration()));
+  rig["camera"]["fx"] = std::nan("");  // JSON has no NaN: it is written as null
+  Write(folder / "cal.json", rig.dump());
+  ExpectRefused(Scene::Get().photograph(), folder / "cal.json", "/camera/fx");
   rig["camera"]["fx"] = -5;
   Write(folder / "cal.json", rig.dump());
   ExpectRefused(Scene::Get().photograph(), folder / "cal.json", "/camera/fx must be positive");
+}
+
+TEST(BadOutput, AFullDiskLeavesNothing) {
+  const TempDir folder;
+  // A limit on the size of files stands in for a full disk: the surface has megabytes, the limit is 512 KiB.
+  const Ran ran = testing::RunProgram(
+      "/bin/sh", {"-c", "ulimit -f 1024; exec \"$0\" reconstruct \"$1\" --calibration \"$2\" --out \"$3\"",
+                  (fs::path(STRIAE_BINARY_DIR) / "striae").string(), Scene::Get().photograph().string(),
+                  Scene::Get().calibration().string(), (folder / "surface.ply").string()});
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("free space"));
+  EXPECT_EQ(FilesIn(folder.path()), 0U);
+}
+
+TEST(BadOutput, AFolderInItsPlaceIsSaidBeforeAnythingIsComputed) {
+  const TempDir folder;
+  fs::create_directory(folder / "surface.ply");
+  const Ran ran = Striae({"reconstruct", "no-such-photograph.jpg", "--calibration", "no-such-calibration.json", "--out",
+                          (folder / "surface.ply").string()});
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_THAT(ran.err, HasSubstr("give the name of a file"));
 }
 
 TEST(BadOutput, AFolderThatIsNotThereLeavesNothing) {
