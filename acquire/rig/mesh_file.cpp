@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <system_error>
 
@@ -36,6 +37,24 @@ Status CheckSize(const TriangleMesh& mesh, const std::string& name) {
               fmt::format("{} is {:g} mm large; say the file's unit (1 for mm, 10 for cm, 1000 for m)", name, size));
 }
 
+/// What the library would search without end or trust without reason: a PLY without the end of its header, and a binary
+/// STL that is shorter than its count of facets says.
+Status CheckStart(const std::filesystem::path& path, const std::string& ending, std::uintmax_t bytes) {
+  std::string start(std::min<std::uintmax_t>(bytes, 65536), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  const Status broken = Fail(ErrorCode::kBadFile, path.string() + " is cut off or no mesh; export it again");
+  if (!file) return broken;
+  if (ending == ".ply" && (start.rfind("ply", 0) != 0 || start.find("end_header") == std::string::npos)) return broken;
+  if (ending == ".stl" && start.rfind("solid", 0) != 0) {
+    if (start.size() < 84) return broken;
+    std::uint32_t facets = 0;
+    for (std::size_t i = 4; i-- > 0;) facets = facets << 8U | static_cast<unsigned char>(start[80 + i]);
+    if (bytes < 84 + 50 * static_cast<std::uintmax_t>(facets)) return broken;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<TriangleMesh> ReadMesh(const std::filesystem::path& path, const MeshFileOptions& options) {
@@ -56,6 +75,7 @@ Result<TriangleMesh> ReadMesh(const std::filesystem::path& path, const MeshFileO
     return Fail(ErrorCode::kBadFile, fmt::format("{} has {} MB, more than {} MB; decimate it", path.string(),
                                                  bytes >> 20U, options.most_bytes >> 20U));
   }
+  if (Status whole = CheckStart(path, ending, bytes); !whole) return Fail(whole.error());
   auto mesh = detail::ReadWithAssimp(path, options.most_triangles);
   if (!mesh) return Fail(mesh.error());
   if (options.albedo) {

@@ -204,6 +204,7 @@ TEST(PhotographFile, CarriesTheTagsOfAD90) {
   EXPECT_EQ(exif["Exif.Photo.FocalLength"].toString(), "50/1");
   EXPECT_EQ(exif["Exif.Photo.Flash"].toLong() & 1, 1) << "fired";
   EXPECT_EQ(exif["Exif.Nikon3.SerialNumber"].toString(), "3991234");
+  EXPECT_EQ(exif["Exif.NikonLd3.FocusDistance"].toLong(), 80) << "0.01 m 10^(80 / 40) = 1 m, decrypted";
   EXPECT_EQ(image->pixelWidth(), 64);
 }
 
