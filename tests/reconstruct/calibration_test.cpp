@@ -129,6 +129,45 @@ TEST(SolveCalibration, FindsTheRigFromShapeAndStepsAlone) {
   }
 }
 
+/// The same scene seen by a rig that lies on its side: x and y change places everywhere. Reflecting turns a rotation
+/// vector about its axis and backwards.
+Surface Transposed(Surface mesh) {
+  for (auto& point : mesh.point_in_camera) std::swap(point.x(), point.y());
+  for (auto& face : mesh.faces) std::swap(face[1], face[2]);
+  return mesh;
+}
+
+std::vector<CalibrationView> Transposed(std::vector<CalibrationView> views) {
+  for (auto& view : views) {
+    for (auto& sample : view.samples) std::swap(sample.pixel.x(), sample.pixel.y());
+  }
+  return views;
+}
+
+TEST(SolveCalibration, FindsARigWithVerticalStripes) {
+  const auto upright = ReferenceShape::FromMesh(DomedPlate());
+  const auto shape = ReferenceShape::FromMesh(Transposed(DomedPlate()));
+  ASSERT_TRUE(upright && shape);
+  NominalRig nominal = Nominal();
+  std::swap(nominal.image_width_px, nominal.image_height_px);
+  nominal.direction = StripeDirection::kVertical;
+  const auto fit = SolveCalibration(*shape, Transposed(Photograph(*upright, 7, 30)), nominal);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const Calibration rig = TrueRig();
+  EXPECT_EQ(fit->calibration.direction, StripeDirection::kVertical);
+  EXPECT_NEAR(fit->calibration.camera.fx, rig.camera.fy, 0.002 * rig.camera.fy);
+  EXPECT_NEAR(fit->calibration.projector.center_mm.x(), rig.projector.center_mm.y(), 0.5);
+  const StripeOptics truth(rig), found(fit->calibration);
+  for (const double z : {920.0, 1060.0}) {
+    for (const double x : {500.0, 3700.0}) {
+      const auto order = truth.OrderAt(z * RayOf(rig.camera, {x, 900}));
+      const auto depth = found.DepthAt(RayOf(fit->calibration.camera, {900, x}), *order);
+      ASSERT_TRUE(depth);
+      EXPECT_NEAR(*depth, z, 1.0);  // as for horizontal stripes
+    }
+  }
+}
+
 TEST(SolveCalibration, RefusesWhatCannotDetermineTheRig) {
   const auto shape = ReferenceShape::FromMesh(DomedPlate());
   ASSERT_TRUE(shape);
