@@ -124,7 +124,9 @@ TEST(OrderScenesLong, NoneIsWrongWithoutAWarning) {
     // Where the grating's ends fall on the subject a photograph is to be of use without a second look.
     const bool shows_ends =
         kind == "limb" || kind == "two limbs" || kind == "head over torso" || kind == "reference plate";
-    if (shows_ends) EXPECT_GE(4 * tally.largest_silent, 3 * tally.scenes) << kind;
+    if (shows_ends) {
+      EXPECT_GE(4 * tally.largest_silent, 3 * tally.scenes) << kind;
+    }
   }
 }
 
