@@ -54,7 +54,6 @@ void Append(const TriangleMesh& part, TriangleMesh& mesh) {
   mesh.vertex.insert(mesh.vertex.end(), part.vertex.begin(), part.vertex.end());
   mesh.normal.insert(mesh.normal.end(), part.normal.begin(), part.normal.end());
   mesh.albedo.insert(mesh.albedo.end(), part.albedo.begin(), part.albedo.end());
-  mesh.triangle.reserve(mesh.triangle.size() + part.triangle.size());
   for (const auto& t : part.triangle) mesh.triangle.push_back({t[0] + first, t[1] + first, t[2] + first});
   mesh.decal.insert(mesh.decal.end(), part.decal.begin(), part.decal.end());
 }
