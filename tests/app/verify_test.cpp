@@ -164,7 +164,8 @@ class CheckedStudy : public ::testing::Test {
   }
   /// Status of the volume in force.
   [[nodiscard]] json Volume() const {
-    for (const json& m : In({"results"}).at("measurements")) {
+    const json results = In({"results"});
+    for (const json& m : results.at("measurements")) {
       if (m.at("name") == "volume") return m;
     }
     return {};
