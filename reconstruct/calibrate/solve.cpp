@@ -78,6 +78,10 @@ Result<Solved> Run(RigFit& fit, const RigParameters& angular_start, const SolveO
   if (!(powell ? RefineByPowell(fit, options) : RefineByLeastSquares(fit, options))) {
     return Refuse("the angular model did not converge");
   }
+  if (const auto far = detail::FarFromDesign(fit.parameters(), fit.nominal(), angular, kFarthestFromDesign);
+      !far.empty()) {
+    return Refuse("the angular model's solution is no such rig (" + far + ")");
+  }
   return solved;
 }
 

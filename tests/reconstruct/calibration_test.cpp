@@ -168,6 +168,21 @@ TEST(SolveCalibration, FindsARigWithVerticalStripes) {
   }
 }
 
+TEST(SolveCalibration, RefusesAnotherObjectAtOnce) {
+  const auto shape = ReferenceShape::FromMesh(DomedPlate());
+  Surface other = DomedPlate();
+  for (auto& point : other.point_in_camera) {  // ripples of the same height instead of domes
+    point.z() = -10 - 10 * std::sin(point.x() / 12) * std::cos(point.y() / 15);
+  }
+  const auto wrong = ReferenceShape::FromMesh(other);
+  ASSERT_TRUE(shape && wrong);
+  const auto views = Photograph(*shape, 3, 50);
+  EXPECT_TRUE(CheckObject(*shape, views[0], Nominal()));
+  const Status refused = CheckObject(*wrong, views[0], Nominal());
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("is it the right mesh"));
+}
+
 TEST(SolveCalibration, RefusesWhatCannotDetermineTheRig) {
   const auto shape = ReferenceShape::FromMesh(DomedPlate());
   ASSERT_TRUE(shape);

@@ -13,7 +13,7 @@ namespace {
 /// Phase noise assumed of one sample, stripes, until the residuals tell it; the robust loss starts to yield beyond
 /// three of them. Caps' rims differ by a hundredth of a stripe, ten times the noise elsewhere, and always to the same
 /// side.
-constexpr double kSigma_stripes = 0.01, kFinestSigma_stripes = 0.0003;
+constexpr double kFinestSigma_stripes = 0.0003;
 constexpr double kLoss = 3;
 constexpr int kBlock = 128;
 
@@ -102,6 +102,8 @@ double MedianOf(std::vector<double> values) {
 void RigFit::ChangeLaw(const ProjectorLaw& law, const RigParameters& nominal) {
   law_ = law;
   nominal_ = nominal;
+  // What this law leaves is a matter of its shape, not of noise: it is fitted by nearly plain least squares.
+  sigma_stripes_ = coarsest_sigma_stripes_ = 0.3;
   std::copy(std::begin(nominal.projector), std::end(nominal.projector), parameters_.projector);
 }
 
@@ -179,7 +181,7 @@ void RigFit::LearnSigma() {
     for (const double difference : Differences(v)) residuals.push_back(std::abs(difference));
   }
   if (residuals.empty()) return;
-  sigma_stripes_ = std::clamp(1.4826 * MedianOf(std::move(residuals)), kFinestSigma_stripes, kSigma_stripes);
+  sigma_stripes_ = std::clamp(1.4826 * MedianOf(std::move(residuals)), kFinestSigma_stripes, coarsest_sigma_stripes_);
 }
 
 double RigFit::ViewSpread(std::size_t view) const {

@@ -66,7 +66,7 @@ class RigFit {
   ProjectorLaw law_;
   std::vector<double> offsets_;
   std::vector<std::vector<const OrderSample*>> selected_;
-  double sigma_stripes_ = 0.01;
+  double sigma_stripes_ = 0.01, coarsest_sigma_stripes_ = 0.01;
 };
 
 /// Sandwich: inverse(J'J) (G / (G - free) sum of cluster scores squared + priors' part) inverse(J'J). The first
