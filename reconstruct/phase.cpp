@@ -20,7 +20,6 @@ using detail::kLanes;
 using detail::Lanes;
 using detail::LineAnalysis;
 using detail::LineLayout;
-using detail::SampledLines;
 
 /// Second differences of the phase beyond this (rad) are a step: a smooth surface stays below a tenth of it.
 constexpr float kStep_rad = 0.7F;
@@ -28,7 +27,6 @@ constexpr float kStep_rad = 0.7F;
 struct Chosen {
   StripeDirection direction;
   LineLayout layout;  ///< of the lines across the stripes
-  SampledLines samples;
   Carrier carrier;
 };
 
@@ -38,10 +36,9 @@ Result<Chosen> ChooseDirection(const Photograph& photograph, std::optional<Strip
     if (wanted.value_or(direction) != direction) continue;
     const LineLayout layout(photograph.luminance.width(), photograph.luminance.height(),
                             direction == StripeDirection::kHorizontal);
-    SampledLines samples = detail::SampleLines(photograph.luminance, layout, photograph.linear);
-    const auto carrier = detail::FindCarrier(samples);
+    const auto carrier = detail::FindCarrier(detail::SampleLines(photograph.luminance, layout, photograph.linear));
     if (!carrier || (best && best->carrier.prominence >= carrier->prominence)) continue;
-    best = Chosen{direction, layout, std::move(samples), *carrier};
+    best = Chosen{direction, layout, *carrier};
   }
   if (best) return std::move(*best);
   return Fail(ErrorCode::kNoCarrier,
@@ -62,18 +59,55 @@ struct BlockMemory {
   LineAnalysis::Signal Signal() { return {phase.data(), amplitude.data(), background.data()}; }
 
   LineAnalysis::Scratch scratch;
+  Lanes<float> with_halo;
   Lanes<float> light;  ///< its place is taken by the modulation once it is analysed
   Lanes<float> phase, amplitude, background, groups, maximum, falling;
   Lanes<std::uint8_t> mask;
   Lanes<std::uint16_t> runs;
 };
 
+/// Reads blocks of lines as linear light, smoothed along the stripes.
+class LightReader {
+ public:
+  LightReader(const Photograph& photograph, const LineLayout& layout, double sigma_px)
+      : photograph_(photograph), layout_(layout), kernel_(detail::GaussianKernel(sigma_px)) {}
+
+  /// Returns the number of saturated pixels.
+  std::size_t Read(int block, BlockMemory& m) const {
+    const int halo = static_cast<int>(kernel_.size()) - 1;
+    m.with_halo.resize(static_cast<std::size_t>(layout_.length()) * static_cast<std::size_t>(kLanes + 2 * halo));
+    layout_.LoadWithHalo(photograph_.luminance, block, halo, m.with_halo.data());
+    const std::size_t saturated = detail::CountAtLeast(m.with_halo.data(), layout_.length(), halo,
+                                                       layout_.LanesOf(block), photograph_.saturation_level);
+    if (!photograph_.linear) detail::DecodeSrgb(m.with_halo.data(), m.with_halo.size());
+    detail::SmoothAcross(m.with_halo.data(), layout_.length(), kernel_, m.light.data());
+    return saturated;
+  }
+
+ private:
+  const Photograph& photograph_;
+  const LineLayout& layout_;
+  std::vector<float> kernel_;
+};
+
+/// A few evenly spread blocks: enough for the noise and the usual modulation.
+std::vector<Lanes<float>> SampleBlocks(const LightReader& reader, const LineLayout& layout, BlockMemory& memory) {
+  constexpr int kMost = 12;
+  const int count = std::min(kMost, layout.blocks());
+  std::vector<Lanes<float>> blocks;
+  for (int k = 0; k < count; ++k) {
+    reader.Read(static_cast<int>((k + 0.5) * layout.blocks() / count), memory);
+    blocks.push_back(memory.light);
+  }
+  return blocks;
+}
+
 /// Upper quartile of the modulation over the sampled pixels whose amplitude is above the noise.
-float WellLitModulation(const LineAnalysis& analysis, const SampledLines& samples, float least_amplitude) {
+float WellLitModulation(const LineAnalysis& analysis, const std::vector<Lanes<float>>& blocks, float least_amplitude,
+                        BlockMemory& memory) {
   constexpr std::size_t kStep = 3;  // of the sampled pixels
-  BlockMemory memory(analysis, samples.length);
   std::vector<float> modulations;
-  for (const Lanes<float>& light : samples.blocks) {
+  for (const Lanes<float>& light : blocks) {
     analysis(light.data(), memory.Signal(), memory.scratch);
     for (std::size_t i = 0; i < light.size(); i += kStep) {
       if (memory.amplitude[i] > 3 * least_amplitude)
@@ -86,16 +120,20 @@ float WellLitModulation(const LineAnalysis& analysis, const SampledLines& sample
   return std::min(1.0F, *quartile);
 }
 
-detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const SampledLines& samples, double noise, double period_px,
-                            const PhaseOptions& options) {
+/// Fills `result.noise` as well.
+detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const LightReader& reader, const LineLayout& layout,
+                            const PhaseOptions& options, PhaseResult& result) {
+  BlockMemory memory(analysis, layout.length());
+  const std::vector<Lanes<float>> blocks = SampleBlocks(reader, layout, memory);
+  result.noise = analysis.Noise(blocks);
   detail::MaskLimits limits;
-  limits.least_amplitude = static_cast<float>(std::max(noise / options.largest_phase_noise, 1e-5));
+  limits.least_amplitude = static_cast<float>(std::max(result.noise / options.largest_phase_noise, 1e-5));
   limits.least_modulation = std::max(static_cast<float>(options.least_modulation),
                                      static_cast<float>(options.least_modulation_share) *
-                                         WellLitModulation(analysis, samples, limits.least_amplitude));
+                                         WellLitModulation(analysis, blocks, limits.least_amplitude, memory));
   limits.least_share = static_cast<float>(options.least_plateau_share);
   limits.least_share_between = static_cast<float>(options.least_share_between);
-  limits.least_run_px = static_cast<int>(std::lround(options.least_run_periods * period_px));
+  limits.least_run_px = static_cast<int>(std::lround(options.least_run_periods * result.carrier_period_px));
   return limits;
 }
 
@@ -120,7 +158,7 @@ void AnalyseBlock(const LineAnalysis& analysis, const detail::MaskLimits& limits
 }
 
 /// Fills the images of `result` and the wrapped phase, block by block; each block stays in the processor's cache.
-void AnalyseBlocks(const Photograph& photograph, const LineLayout& layout, const LineAnalysis& analysis,
+void AnalyseBlocks(const LightReader& reader, const LineLayout& layout, const LineAnalysis& analysis,
                    const detail::MaskLimits& limits, ImageF& wrapped, PhaseResult& result) {
   const Plateau plateau(result.carrier_period_px);
   const auto threads = static_cast<std::size_t>(detail::ThreadCount());
@@ -133,10 +171,7 @@ void AnalyseBlocks(const Photograph& photograph, const LineLayout& layout, const
         if (!memories[t]) memories[t] = std::make_unique<BlockMemory>(analysis, layout.length());
         BlockMemory& m = *memories[t];
         for (int block = first; block < last; ++block) {
-          layout.Load(photograph.luminance, block, m.light.data());
-          saturated[t] +=
-              detail::CountAtLeast(m.light.data(), layout.length(), layout.LanesOf(block), photograph.saturation_level);
-          if (!photograph.linear) detail::DecodeSrgb(m.light.data(), m.light.size());
+          saturated[t] += reader.Read(block, m);
           AnalyseBlock(analysis, limits, plateau, layout.length(), m);
           layout.Store(m.phase.data(), block, wrapped);
           layout.Store(m.amplitude.data(), block, result.amplitude);
@@ -147,7 +182,7 @@ void AnalyseBlocks(const Photograph& photograph, const LineLayout& layout, const
       },
       1);
   result.saturated_share = static_cast<double>(std::accumulate(saturated.begin(), saturated.end(), std::size_t{0})) /
-                           static_cast<double>(photograph.luminance.size());
+                           static_cast<double>(wrapped.size());
 }
 
 }  // namespace
@@ -167,14 +202,14 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
   result.carrier_period_px = chosen->carrier.period_px;
   result.carrier_prominence = chosen->carrier.prominence;
   const LineAnalysis analysis(chosen->layout.length(), result.carrier_period_px, options.window_half_width);
-  result.noise = analysis.Noise(chosen->samples.blocks);
-  const auto limits = LimitsOf(analysis, chosen->samples, result.noise, result.carrier_period_px, options);
+  const LightReader reader(photograph, chosen->layout, options.smoothing_along * result.carrier_period_px);
+  const auto limits = LimitsOf(analysis, reader, chosen->layout, options, result);
 
   ImageF wrapped = ImageF::Unset(width, height);
   for (ImageF* image : {&result.amplitude, &result.background, &result.modulation})
     *image = ImageF::Unset(width, height);
   result.mask = Mask::Unset(width, height);
-  AnalyseBlocks(photograph, chosen->layout, analysis, limits, wrapped, result);
+  AnalyseBlocks(reader, chosen->layout, analysis, limits, wrapped, result);
 
   detail::CutSteps(wrapped, result.mask, kStep_rad);
   detail::CleanMask(result.mask, options.least_region_px);

@@ -16,6 +16,9 @@ struct PhaseOptions {
   std::optional<StripeDirection> direction;  ///< found when not given
   /// Half width of the Hann window over the carrier's frequency. Wider keeps edges, narrower removes noise.
   double window_half_width = 0.7;
+  /// Smoothing along the stripes (standard deviation of a Gaussian, in periods): with the Hann window it makes a window
+  /// in two dimensions. Across the stripes the window reaches much farther, so that no detail is lost.
+  double smoothing_along = 0;
   /// Least amplitude against the local plateau (three periods along the line). At a silhouette it falls to half.
   double least_plateau_share = 0.4;
   /// The same where the stripes are bright again on both sides within three periods: a crater's wall or a dark logo

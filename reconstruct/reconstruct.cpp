@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reconstruct/colour.h"
+#include "reconstruct/detail/lateral.h"
 #include "reconstruct/detail/parallel.h"
 #include "reconstruct/detail/surface_builder.h"
 
@@ -121,7 +122,8 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
 
   const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
   out.regions = ResolveOrder(*phase, calibration, options.distance_mm.value_or(middle_mm));
-  ImageF order = AbsoluteOrder(*phase, out.regions, calibration);
+  ImageF order = detail::SmoothAlongStripes(AbsoluteOrder(*phase, out.regions, calibration), phase->direction,
+                                            options.smoothing_along * phase->carrier_period_px);
   const std::size_t field = LitField(*phase);
   phase->unwrapped = {};  // an image of this size is 50 MB: what is done with makes room
   phase->background = {};

@@ -19,6 +19,9 @@ struct ReconstructOptions {
   PhaseOptions phase;
   std::optional<double> distance_mm;  ///< hint; the middle of the calibration's working distance when not given
   bool faces = true;
+  /// Smoothing of the order along the stripes (standard deviation in periods), where the noise is larger than the
+  /// shape.
+  double smoothing_along = 0.25;
   /// Points whose depth lies further outside of the working distance than this share of it are no part of the subject.
   double outside_working_share = 0.12;
 };

@@ -42,12 +42,62 @@ STRIAE_VECTORISED void DecodeSrgb(float* values, std::size_t count) {
   }
 }
 
-STRIAE_VECTORISED std::size_t CountAtLeast(const float* values, int length, int lanes, float level) {
+void LineLayout::LoadWithHalo(const ImageF& image, int block, int halo, float* out) const {
+  const int first = block * kLanes - halo, count = kLanes + 2 * halo, last_line = lines() - 1;
+  const auto stride = static_cast<std::size_t>(count);
+  if (along_columns_ && first >= 0 && first + count <= lines()) {
+    for (int position = 0; position < length(); ++position) {
+      std::copy_n(image.Row(position) + first, count, out + static_cast<std::size_t>(position) * stride);
+    }
+    return;
+  }
+  for (int lane = 0; lane < count; ++lane) {
+    const int line = std::clamp(first + lane, 0, last_line);
+    float* to = out + lane;
+    for (int position = 0; position < length(); ++position, to += stride) {
+      *to = along_columns_ ? image(line, position) : image(position, line);
+    }
+  }
+}
+
+STRIAE_VECTORISED std::size_t CountAtLeast(const float* with_halo, int length, int halo, int lanes, float level) {
+  const auto stride = static_cast<std::size_t>(kLanes + 2 * halo);
   Ints count{};
-  for (int i = 0; i < length; ++i) count -= STRIAE_LANES(const Floats, values + At(i)) >= level;
+  for (int i = 0; i < length; ++i) {
+    count -= STRIAE_LANES(const Floats, with_halo + static_cast<std::size_t>(i) * stride + halo) >= level;
+  }
   std::size_t sum = 0;
   for (int lane = 0; lane < lanes; ++lane) sum += static_cast<std::size_t>(count[static_cast<std::size_t>(lane)]);
   return sum;
+}
+
+std::vector<float> GaussianKernel(double sigma_px) {
+  constexpr double kReach = 3.7;  // standard deviations: exp(-kReach^2 / 2) is a thousandth
+  const int halo = static_cast<int>(std::floor(kReach * sigma_px));
+  std::vector<double> half;
+  double sum = 0;
+  for (int k = 0; k <= halo; ++k) {
+    half.push_back(k == 0 ? 1 : std::exp(-k * k / (2 * sigma_px * sigma_px)));
+    sum += (k == 0 ? 1 : 2) * half.back();
+  }
+  std::vector<float> kernel;
+  for (const double value : half) kernel.push_back(static_cast<float>(value / sum));
+  return kernel;
+}
+
+STRIAE_VECTORISED void SmoothAcross(const float* with_halo, int length, const std::vector<float>& kernel,
+                                    float* lanes) {
+  const int halo = static_cast<int>(kernel.size()) - 1;
+  const auto stride = static_cast<std::size_t>(kLanes + 2 * halo);
+  for (int i = 0; i < length; ++i) {
+    const float* middle = with_halo + static_cast<std::size_t>(i) * stride + halo;
+    Floats sum = kernel[0] * STRIAE_LANES(const Floats, middle);
+    for (int k = 1; k <= halo; ++k) {
+      sum += kernel[static_cast<std::size_t>(k)] *
+             (STRIAE_LANES(const Floats, middle - k) + STRIAE_LANES(const Floats, middle + k));
+    }
+    STRIAE_LANES(Floats, lanes + At(i)) = sum;
+  }
 }
 
 STRIAE_VECTORISED void BoxMean(const float* in, float* out, int length, double period_px) {

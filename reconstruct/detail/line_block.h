@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/buffer.h"
 #include "core/image.h"
@@ -40,19 +41,9 @@ class LineLayout {
       }
     }
   }
-  /// Sixteen neighbouring lines; lanes beyond the last line repeat it.
-  template <typename T>
-  void Load(const Image<T>& image, int block, T* lanes) const {
-    const int first = block * kLanes, last = Last(block);
-    if (along_columns_ && last - first == kLanes) {
-      for (int position = 0; position < length(); ++position) {
-        std::copy_n(image.Row(position) + first, kLanes, lanes + static_cast<std::size_t>(position) * kLanes);
-      }
-      return;
-    }
-    LoadLines(
-        image, [&](int lane) { return std::min(first + lane, last - 1); }, lanes);
-  }
+  /// Sixteen neighbouring lines with `halo` more on either side, position by position: out has length * (kLanes +
+  /// 2 halo) values. Beyond the image's border the last line is repeated.
+  void LoadWithHalo(const ImageF& image, int block, int halo, float* out) const;
   template <typename T>
   void Store(const T* lanes, int block, Image<T>& image) const {
     const int first = block * kLanes, count = LanesOf(block);
@@ -77,8 +68,14 @@ class LineLayout {
 /// sRGB's decoding (IEC 61966-2-1), in place; a polynomial within 1e-6 of full scale.
 void DecodeSrgb(float* values, std::size_t count);
 
-/// How many values of the first `lanes` lanes are `level` or more.
-std::size_t CountAtLeast(const float* values, int length, int lanes, float level);
+/// How many values are `level` or more, of `lanes` lines behind the first `halo` in LoadWithHalo's order.
+std::size_t CountAtLeast(const float* with_halo, int length, int halo, int lanes, float level);
+
+/// Right half of a Gaussian of that standard deviation (pixels), its middle first; the whole adds up to 1. Cut where
+/// less than a thousandth of the middle is left.
+std::vector<float> GaussianKernel(double sigma_px);
+/// Convolves across the lines: lane l from the lines l to l + 2 halo; the kernel has halo + 1 values.
+void SmoothAcross(const float* with_halo, int length, const std::vector<float>& kernel, float* lanes);
 
 /// Mean over `period_px` (fractional) around every position; the ends repeat the border value.
 void BoxMean(const float* in, float* out, int length, double period_px);
