@@ -11,12 +11,10 @@
 #include "reconstruct/detail/lateral.h"
 #include "reconstruct/detail/parallel.h"
 #include "reconstruct/detail/surface_builder.h"
+#include "reconstruct/detail/uncertainty.h"
 
 namespace striae::reconstruct {
 namespace {
-
-/// Stripes; what a smooth, evenly coloured surface scatters by besides the sensor's noise.
-constexpr double kOrderFloor = 0.0005;
 
 /// Times the stages when there is a clock.
 class Stages {
@@ -133,11 +131,12 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
   images.colour = ColourWithoutStripes(photograph.colour, order, phase->direction);
   stages.Done("colour");
 
+  detail::OrderUncertainty(order, phase->direction, phase->carrier_period_px, phase_options.window_half_width,
+                           phase->noise, phase->amplitude);
   const double slack_mm = options.outside_working_share * middle_mm;
   const detail::RayTable rays(calibration.camera, photograph.luminance.width(), photograph.luminance.height());
-  images.depth = detail::Triangulate(
-      std::move(order), calibration, rays,
-      {calibration.near_mm - slack_mm, calibration.far_mm + slack_mm, kOrderFloor, phase->noise}, phase->amplitude);
+  images.depth = detail::Triangulate(std::move(order), calibration, rays, calibration.near_mm - slack_mm,
+                                     calibration.far_mm + slack_mm, phase->amplitude);
   images.uncertainty = std::move(phase->amplitude);
   images.modulation = std::move(phase->modulation);
   stages.Done("triangulation");

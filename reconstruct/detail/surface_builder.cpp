@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -18,13 +17,10 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSteepest = 3.7F;      // tan 75 degrees
 constexpr float kNoiseStep_mm = 0.5F;  // neighbours may differ by this whatever the slope
 
-STRIAE_VECTORISED void KeepWithin(const double* depth_mm, const double* per_stripe, std::size_t count,
-                                  const Triangulation& limits, float* depth, float* amplitude) {
-  const double noise = limits.noise / (2 * std::numbers::pi), floor2 = limits.order_floor * limits.order_floor;
-  const double near_mm = limits.near_mm, far_mm = limits.far_mm;
+STRIAE_VECTORISED void KeepWithin(const double* depth_mm, const double* per_stripe, std::size_t count, double near_mm,
+                                  double far_mm, float* depth, float* uncertainty) {
   for (std::size_t i = 0; i < count; ++i) {
-    const double of_noise = noise / std::max(static_cast<double>(amplitude[i]), 1e-12);
-    amplitude[i] = static_cast<float>(std::abs(per_stripe[i]) * std::sqrt(of_noise * of_noise + floor2));
+    uncertainty[i] *= static_cast<float>(std::abs(per_stripe[i]));
     depth[i] = (depth_mm[i] >= near_mm) & (depth_mm[i] <= far_mm) ? static_cast<float>(depth_mm[i]) : kNone;
   }
 }
@@ -177,8 +173,8 @@ class Builder {
 
 }  // namespace
 
-ImageF Triangulate(ImageF order, const Calibration& calibration, const RayTable& table, const Triangulation& limits,
-                   ImageF& amplitude) {
+ImageF Triangulate(ImageF order, const Calibration& calibration, const RayTable& table, double near_mm, double far_mm,
+                   ImageF& uncertainty) {
   const StripeOptics optics(calibration);
   const auto width = static_cast<std::size_t>(order.width());
   ParallelBlocks(order.height(), [&](int, int first, int last) {
@@ -195,7 +191,8 @@ ImageF Triangulate(ImageF order, const Calibration& calibration, const RayTable&
       table.Row(row, rays);
       optics.DepthsAt(end - begin, rays.x.data() + begin, rays.y.data() + begin, pixels + begin, depth.data(),
                       per_stripe.data());
-      KeepWithin(depth.data(), per_stripe.data(), end - begin, limits, pixels + begin, amplitude.Row(row) + begin);
+      KeepWithin(depth.data(), per_stripe.data(), end - begin, near_mm, far_mm, pixels + begin,
+                 uncertainty.Row(row) + begin);
     }
   });
   return order;

@@ -8,19 +8,11 @@
 
 namespace striae::reconstruct::detail {
 
-/// Where pixels may lie, and what their stripe order is worth.
-struct Triangulation {
-  double near_mm = 0, far_mm = 0;  ///< depths outside are dropped
-  /// Standard uncertainty of the order (stripes) is noise / amplitude / 2 pi, and this besides (in quadrature): what
-  /// the Fourier window leaves of texture and shape, and what does not follow from the sensor's noise.
-  double order_floor = 0;
-  double noise = 0;  ///< of the amplitude's components
-};
-
 /// Depth z (mm) of every pixel whose absolute order is not NaN, in the place of the order; NaN where the ray and the
-/// light do not meet within the limits. The amplitude's place is taken by the depth's standard uncertainty (mm).
-ImageF Triangulate(ImageF order, const Calibration& calibration, const RayTable& table, const Triangulation& limits,
-                   ImageF& amplitude);
+/// light do not meet between `near_mm` and `far_mm`. `uncertainty` is of the order (stripes) before, of the depth (mm,
+/// along the pixel's ray) after.
+ImageF Triangulate(ImageF order, const Calibration& calibration, const RayTable& table, double near_mm, double far_mm,
+                   ImageF& uncertainty);
 
 /// What becomes the points' properties.
 struct PointImages {
