@@ -1,6 +1,7 @@
 // `striae unlock`: ends a lock with a reason; signatures on what was locked are void.
 #include "app/sign_in.h"
 #include "app/study.h"
+#include "store/locks.h"
 
 namespace striae::app {
 namespace {

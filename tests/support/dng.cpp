@@ -45,9 +45,7 @@ void PutDirectory(std::vector<std::uint8_t>& bytes, std::vector<Entry> entries) 
     Put(bytes, static_cast<std::uint16_t>(entry.type));
     Put(bytes, entry.count);
     if (entry.data.size() <= 4) {
-      std::vector<std::uint8_t> value = entry.data;
-      value.resize(4);
-      bytes.insert(bytes.end(), value.begin(), value.end());
+      for (std::size_t i = 0; i < 4; ++i) bytes.push_back(i < entry.data.size() ? entry.data[i] : 0);
       continue;
     }
     Put(bytes, static_cast<std::uint32_t>(values + after.size()));
