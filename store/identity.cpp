@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <thread>
 
 #include <fcntl.h>
 #include <sodium.h>
 #include <sqlite3.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "store/detail/change.h"
 #include "store/detail/database.h"
 #include "store/detail/disk.h"
+#include "store/detail/impl.h"
 #include "store/detail/sealed.h"
 
 namespace striae::store {
@@ -109,17 +114,18 @@ std::vector<Identity> ReadAll(MemoryDatabase& database) {
   return all;
 }
 
-/// Temporary file, fsync, rename over the old one, fsync of the folder.
-void Replace(const fs::path& file, std::span<const std::uint8_t> bytes) {
+/// Temporary file, fsync, `account`, rename over the old one, fsync of the folder.
+template <typename Account>
+void Replace(const fs::path& file, std::span<const std::uint8_t> bytes, Account account) {
   std::string name = file.string() + ".part-XXXXXX";
   {
     const detail::File draft(::mkostemp(name.data(), O_CLOEXEC));
     if (draft.get() < 0) detail::RefuseIo("write in", file.parent_path(), errno);
     try {
       detail::WriteWhole(draft.get(), file, bytes);
-      if (::fchmod(draft.get(), 0600) != 0 || std::rename(name.c_str(), file.c_str()) != 0) {
-        detail::RefuseIo("write", file, errno);
-      }
+      if (::fchmod(draft.get(), 0600) != 0) detail::RefuseIo("write", file, errno);
+      account();
+      if (std::rename(name.c_str(), file.c_str()) != 0) detail::RefuseIo("write", file, errno);
     } catch (...) {
       ::unlink(name.c_str());
       throw;
@@ -127,6 +133,53 @@ void Replace(const fs::path& file, std::span<const std::uint8_t> bytes) {
   }
   detail::SyncFolder(file.parent_path().empty() ? fs::path(".") : file.parent_path());
 }
+
+std::vector<std::uint8_t> SealAll(const std::vector<Identity>& identities, std::string_view passphrase,
+                                  const IdentityRandom& random, const IdentityCost& cost) {
+  if (passphrase.size() < kShortestPassphrase) {
+    Refuse(ErrorCode::kUsage, "the passphrase is too short: at least " + std::to_string(kShortestPassphrase) +
+                                  " characters, better four random words");
+  }
+  MemoryDatabase database;
+  Fill(database, identities);
+  sqlite3_int64 size = 0;
+  unsigned char* bytes = sqlite3_serialize(database.get(), "main", &size, 0);
+  if (bytes == nullptr) throw std::bad_alloc();
+  const auto length = static_cast<std::size_t>(size);
+  sodium_mlock(bytes, length);  // refused where the system's limit is low; the file is protected all the same
+  std::vector<std::uint8_t> sealed;
+  try {
+    sealed = detail::Seal({bytes, length}, passphrase, random, cost);
+  } catch (...) {
+    sodium_munlock(bytes, length);  // wipes
+    sqlite3_free(bytes);
+    throw;
+  }
+  sodium_munlock(bytes, length);
+  sqlite3_free(bytes);
+  return sealed;
+}
+
+/// One program at a time changes the file. The lock is on the folder itself: it leaves nothing behind and goes with the
+/// program, however that ends.
+class Turn {
+ public:
+  explicit Turn(const fs::path& folder) : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (folder_.get() < 0) detail::RefuseIo("open", folder, errno);
+    constexpr int kTries = 1200;
+    for (int i = 0; ::flock(folder_.get(), LOCK_EX | LOCK_NB) != 0; ++i) {
+      if (errno != EWOULDBLOCK) return;  // a file system without locks
+      if (i == kTries) {
+        Refuse(ErrorCode::kIo, std::string("another program is changing ") + kIdentityName +
+                                   "; wait until it has finished, then repeat");
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+
+ private:
+  detail::File folder_;
+};
 
 }  // namespace
 
@@ -144,29 +197,22 @@ Result<std::vector<Identity>> ReadIdentities(const fs::path& file, std::string_v
 
 Status WriteIdentities(const fs::path& file, const std::vector<Identity>& identities, std::string_view passphrase,
                        const IdentityRandom& random, const IdentityCost& cost) {
+  return detail::Guarded([&] { Replace(file, SealAll(identities, passphrase, random, cost), [] {}); });
+}
+
+Status ChangeIdentities(Record& record, const IdentityChange& change, const Stamp& stamp) {
   return detail::Guarded([&] {
-    if (passphrase.size() < kShortestPassphrase) {
-      Refuse(ErrorCode::kUsage, "the passphrase is too short: at least " + std::to_string(kShortestPassphrase) +
-                                    " characters, better four random words");
-    }
-    MemoryDatabase database;
-    Fill(database, identities);
-    sqlite3_int64 size = 0;
-    unsigned char* bytes = sqlite3_serialize(database.get(), "main", &size, 0);
-    if (bytes == nullptr) throw std::bad_alloc();
-    const auto length = static_cast<std::size_t>(size);
-    sodium_mlock(bytes, length);  // refused where the system's limit is low; the file is protected all the same
-    std::vector<std::uint8_t> sealed;
-    try {
-      sealed = detail::Seal({bytes, length}, passphrase, random, cost);
-    } catch (...) {
-      sodium_munlock(bytes, length);  // wipes
-      sqlite3_free(bytes);
-      throw;
-    }
-    sodium_munlock(bytes, length);
-    sqlite3_free(bytes);
-    Replace(file, sealed);
+    const fs::path file = record.folder() / kIdentityName;
+    const Turn turn(record.folder());
+    auto people = detail::Unwrap(ReadIdentities(file, change.passphrase));
+    detail::Unwrap(change.edit(people));
+    const bool again = change.new_passphrase.empty();
+    const auto sealed = SealAll(people, again ? change.passphrase : change.new_passphrase, change.random, change.cost);
+    Replace(file, sealed, [&] {
+      detail::Change row(detail::Access::Of(record).database, stamp);
+      row.Note(kIdentityName, again ? "set" : "passphrase", "", HashOf(sealed).ToString());
+      row.Commit();
+    });
   });
 }
 

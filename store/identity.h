@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +20,8 @@
 #include "core/id.h"
 #include "core/result.h"
 #include "core/time.h"
+#include "store/record.h"
+#include "store/stamp.h"
 
 namespace striae::store {
 
@@ -50,6 +53,19 @@ Result<std::vector<Identity>> ReadIdentities(const std::filesystem::path& file, 
 /// passphrase of fewer than kShortestPassphrase characters.
 Status WriteIdentities(const std::filesystem::path& file, const std::vector<Identity>& identities,
                        std::string_view passphrase, const IdentityRandom& random, const IdentityCost& cost = {});
+
+/// Replaces everybody in the study's file by what `edit` makes of them. Two programs that change it at once do so one
+/// after the other (a lock on the study's folder; waits up to a minute, then kIo). The trail gets a row that says when,
+/// who, whether "set" or "passphrase", and the new file's SHA-256, but nothing of its content; the row is written
+/// before the file gets its name, so that no change is without one. `edit` may refuse; then nothing has changed.
+struct IdentityChange {
+  std::string_view passphrase;      ///< of the file as it is
+  std::string_view new_passphrase;  ///< from now on; the same when empty
+  std::function<Status(std::vector<Identity>&)> edit;
+  IdentityRandom random{};
+  IdentityCost cost;
+};
+Status ChangeIdentities(Record& record, const IdentityChange& change, const Stamp& stamp);
 
 /// Whether the file is whole, without its passphrase: kRecordDamaged with where it is not.
 Status CheckIdentityFile(const std::filesystem::path& file);

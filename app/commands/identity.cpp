@@ -91,18 +91,21 @@ Status Set(Context& run, const Options& options) {
   if (!subject) return Fail(subject.error());
   auto passphrase = AskPassphrase(PassphraseFile({"", options.passphrase_file}), "Passphrase of identity.striae");
   if (!passphrase) return Fail(passphrase.error());
-  auto all = store::ReadIdentities(FileOf(*record), *passphrase);
-  if (!all) return Fail(all.error());
   const auto person = ReadPerson(options.from);
   if (!person) return Fail(person.error());
   auto identity = MakeIdentity(*subject, *person);
   if (!identity) return Fail(identity.error());
-  std::erase_if(*all, [&](const store::Identity& known) { return known.subject == subject->id; });
-  all->push_back(*std::move(identity));
-  const Status written = store::WriteIdentities(FileOf(*record), *all, *passphrase, NewRandom());
+  std::size_t count = 0;
+  const auto put = [&](std::vector<store::Identity>& all) -> Status {
+    std::erase_if(all, [&](const store::Identity& known) { return known.subject == subject->id; });
+    all.push_back(*std::move(identity));
+    count = all.size();
+    return {};
+  };
+  const Status written = store::ChangeIdentities(*record, {*passphrase, {}, put, NewRandom(), {}}, NewStamp());
   sodium_memzero(passphrase->data(), passphrase->size());
   if (!written) return written;
-  run.Output({{"subject", options.subject}, {"identities", all->size()}},
+  run.Output({{"subject", options.subject}, {"identities", count}},
              "identity of " + options.subject + " kept in " + std::string(store::kIdentityName));
   return {};
 }
@@ -143,12 +146,19 @@ Status ChangePassphrase(Context& run, const Options& options) {
   if (!record) return Fail(record.error());
   const auto before = AskPassphrase(PassphraseFile({"", options.passphrase_file}), "Passphrase until now");
   if (!before) return Fail(before.error());
-  const auto all = store::ReadIdentities(FileOf(*record), *before);
-  if (!all) return Fail(all.error());
+  // Before a new one is asked for: a wrong one is told at once.
+  if (const auto all = store::ReadIdentities(FileOf(*record), *before); !all) return Fail(all.error());
   const auto after = AskPassphrase(options.new_passphrase_file, "New passphrase");
   if (!after) return Fail(after.error());
-  if (auto written = store::WriteIdentities(FileOf(*record), *all, *after, NewRandom()); !written) return written;
-  run.Output({{"identities", all->size()}}, "identity.striae has its new passphrase; older backups keep the old one");
+  if (after->empty()) return Fail(ErrorCode::kUsage, "the new passphrase is empty; nothing was changed");
+  std::size_t count = 0;
+  const auto keep = [&](const std::vector<store::Identity>& all) -> Status {
+    count = all.size();
+    return {};
+  };
+  const Status written = store::ChangeIdentities(*record, {*before, *after, keep, NewRandom(), {}}, NewStamp());
+  if (!written) return written;
+  run.Output({{"identities", count}}, "identity.striae has its new passphrase; older backups keep the old one");
   return {};
 }
 
