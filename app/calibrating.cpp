@@ -71,7 +71,7 @@ Status AdoptCamera(const CalibrationPhotograph& opened, bool first, const Calibr
 double ModulationOf(const reconstruct::PhaseResult& phase) {
   std::vector<float> values;
   for (std::size_t i = 0; i < phase.mask.size(); i += 37) {  // a prime: no column or stripe is preferred
-    if (phase.mask.pixels()[i] != 0) values.push_back(phase.modulation.pixels()[i]);
+    if (phase.mask.pixels()[i] != 0) values.push_back(phase.ModulationAt(i));
   }
   return reconstruct::SpreadOf(std::move(values)).median;
 }

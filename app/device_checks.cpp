@@ -71,12 +71,7 @@ Result<std::optional<store::Doubt>> DoubtAbout(Record& record, const store::Work
   return store::DoubtAt(*checks, item.session.opened_at);
 }
 
-void Flag(AnalysisReport& report, const store::Doubt& doubt) {
-  for (Measurement& measurement : report.measurements) {
-    measurement.status = Measurement::Status::kFlagged;
-    measurement.reason += (measurement.reason.empty() ? "" : "; ") + doubt.reason;
-  }
-}
+void Flag(AnalysisReport& report, const store::Doubt& doubt) { FlagAll(report, doubt.reason); }
 
 Result<std::vector<OutOfTolerance>> DevicesOutOfTolerance(Record& record) {
   const auto devices = record.Devices();

@@ -244,6 +244,7 @@ class Run {
     if (!report) return Failed(item, sources, report.error(), processed);
     report->provenance.version = std::string(StriaeVersion());
     report->provenance.inputs = inputs;
+    for (const std::string& warning : Warnings(surface->surface)) FlagAll(*report, "the surface: " + warning);
     if (doubt) Flag(*report, *doubt);
     const auto added = record_.AddReport(NewId<ReportId>(), item.capture.id, *report, NewStamp());
     if (!added) return Fail(added.error());
@@ -257,7 +258,10 @@ class Run {
     const auto surface = SurfaceOf(record_, neutral);
     if (!surface) return Fail(surface.error(), "the neutral pose " + neutral.capture.file_name);
     inputs.push_back({"neutral surface", surface->sha256});
-    return head::Measure(surface->surface, pose);
+    auto report = head::Measure(surface->surface, pose);
+    if (!report) return Fail(report.error());
+    for (const std::string& warning : Warnings(surface->surface)) FlagAll(*report, "the neutral surface: " + warning);
+    return report;
   }
 
   Result<Processed> Failed(const WorkItem& item, const std::vector<ProvenanceInput>& sources, const Error& error,

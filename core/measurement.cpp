@@ -33,6 +33,13 @@ Measurement ReadMeasurement(const json& object) {
 
 }  // namespace
 
+void FlagAll(AnalysisReport& report, const std::string& reason) {
+  for (Measurement& measurement : report.measurements) {
+    measurement.status = Measurement::Status::kFlagged;
+    measurement.reason += (measurement.reason.empty() ? "" : "; ") + reason;
+  }
+}
+
 const Measurement* AnalysisReport::Find(std::string_view name) const {
   for (const Measurement& measurement : measurements) {
     if (measurement.name == name) return &measurement;

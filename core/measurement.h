@@ -41,6 +41,9 @@ struct AnalysisReport {
   [[nodiscard]] const Measurement* Find(std::string_view name) const;
 };
 
+/// Flags every measurement for a reason that concerns what it was measured on.
+void FlagAll(AnalysisReport& report, const std::string& reason);
+
 nlohmann::json ToJson(const Measurement& measurement);
 /// CONTRACT: {"analysis", "version", "inputs": [{"name", "sha256"}], "measurements": [...], ...details}.
 nlohmann::json ToJson(const AnalysisReport& report);

@@ -1,8 +1,22 @@
 #include "core/surface.h"
 
 #include <stdexcept>
+#include <string_view>
 
 namespace striae {
+namespace {
+constexpr std::string_view kWarning = "warning: ";
+}
+
+std::string WarningComment(const std::string& warning) { return std::string(kWarning) + warning; }
+
+std::vector<std::string> Warnings(const Surface& surface) {
+  std::vector<std::string> warnings;
+  for (const std::string& comment : surface.comments) {
+    if (comment.starts_with(kWarning)) warnings.push_back(comment.substr(kWarning.size()));
+  }
+  return warnings;
+}
 
 Image<std::int32_t> VertexIndexGrid(const Surface& surface) {
   if (!surface.HasGrid()) throw std::logic_error("VertexIndexGrid: surface without sensor pixels");

@@ -28,6 +28,11 @@ struct Surface {
   [[nodiscard]] bool HasGrid() const { return col.size() == size() && row.size() == size() && sensor_width_px > 0; }
 };
 
+/// A surface carries what is doubtful about it in its comments, through PLY too.
+std::string WarningComment(const std::string& warning);
+/// The warnings among the comments, without their mark.
+std::vector<std::string> Warnings(const Surface& surface);
+
 /// Vertex index of every sensor pixel, -1 where there is no point. Size sensor_width_px x sensor_height_px.
 Image<std::int32_t> VertexIndexGrid(const Surface& surface);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "reconstruct/detail/parallel.h"
@@ -115,12 +116,11 @@ class LineFiller {
 
 }  // namespace
 
-ImageRgb ColourWithoutStripes(const ImageRgb& photograph, const ImageF& order, StripeDirection direction) {
-  ImageRgb out = ImageRgb::Unset(photograph.width(), photograph.height());
+ImageRgb ColourWithoutStripes(ImageRgb photograph, const ImageF& order, StripeDirection direction) {
+  ImageRgb out = std::move(photograph);
   const int width = out.width(), height = out.height();
   if (direction == StripeDirection::kVertical) {
     detail::ParallelLines(height, [&](int row) {
-      std::copy_n(photograph.Row(row), width, out.Row(row));
       LineFiller filler;
       filler.Start(out.Row(row), 1);
       for (int col = 0; col < width; ++col) filler.Take(col, order(col, row));
@@ -139,7 +139,6 @@ ImageRgb ColourWithoutStripes(const ImageRgb& photograph, const ImageF& order, S
         }
         for (int row = 0; row < height; ++row) {
           const float* orders = order.Row(row);
-          std::copy(photograph.Row(row) + first, photograph.Row(row) + last, out.Row(row) + first);
           for (int col = first; col < last; ++col)
             fillers[static_cast<std::size_t>(col - first)].Take(row, orders[col]);
         }

@@ -60,8 +60,7 @@ struct BlockMemory {
 
   LineAnalysis::Scratch scratch;
   Lanes<float> with_halo;
-  Lanes<float> light;  ///< its place is taken by the modulation once it is analysed
-  Lanes<float> phase, amplitude, background, groups, maximum, falling;
+  Lanes<float> light, phase, amplitude, background, groups, maximum, falling;
   Lanes<std::uint8_t> mask;
   Lanes<std::uint16_t> runs;
 };
@@ -153,7 +152,7 @@ void AnalyseBlock(const LineAnalysis& analysis, const detail::MaskLimits& limits
   detail::GroupMaximum(m.amplitude.data(), length, plateau.group, m.groups.data());
   detail::LaneMaximum(m.groups.data(), groups, plateau.reach, m.maximum.data(), m.falling);
   detail::JudgeLanes(m.amplitude.data(), m.background.data(), m.maximum.data(), length, plateau.group, plateau.reach,
-                     limits, m.light.data(), m.mask.data());
+                     limits, m.mask.data());
   detail::DropShortRuns(m.mask.data(), length, limits.least_run_px, m.runs);
 }
 
@@ -176,7 +175,6 @@ void AnalyseBlocks(const LightReader& reader, const LineLayout& layout, const Li
           layout.Store(m.phase.data(), block, wrapped);
           layout.Store(m.amplitude.data(), block, result.amplitude);
           layout.Store(m.background.data(), block, result.background);
-          layout.Store(m.light.data(), block, result.modulation);
           layout.Store(m.mask.data(), block, result.mask);
         }
       },
@@ -206,8 +204,7 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
   const auto limits = LimitsOf(analysis, reader, chosen->layout, options, result);
 
   ImageF wrapped = ImageF::Unset(width, height);
-  for (ImageF* image : {&result.amplitude, &result.background, &result.modulation})
-    *image = ImageF::Unset(width, height);
+  for (ImageF* image : {&result.amplitude, &result.background}) *image = ImageF::Unset(width, height);
   result.mask = Mask::Unset(width, height);
   AnalyseBlocks(reader, chosen->layout, analysis, limits, wrapped, result);
 

@@ -1,6 +1,8 @@
 // From a photograph under stripes to its unwrapped phase. Needs no calibration: any fringe photograph will do.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,11 +41,18 @@ struct PhaseResult {
   /// All of the photograph's size, sensor orientation.
   Unwrapped unwrapped;  ///< increases with the row (horizontal stripes) or the column (vertical)
   ImageF amplitude;     ///< of the fundamental, linear light, full scale 1
-  ImageF modulation;    ///< amplitude over background, 0..1
   ImageF background;    ///< local mean, linear light
   Mask mask;
   double noise = 0;            ///< sd of the amplitude's components; phase noise (rad) = noise / amplitude
   double saturated_share = 0;  ///< of the pixels
+
+  /// Amplitude over background, 0..1, of pixel `i` (row-major).
+  [[nodiscard]] float ModulationAt(std::size_t i) const {
+    return Modulation(amplitude.pixels()[i], background.pixels()[i]);
+  }
+  static float Modulation(float amplitude, float background) {
+    return std::clamp(amplitude / std::max(background, 1e-6F), 0.0F, 1.0F);
+  }
 };
 
 /// kBadImage for a photograph too small, kNoCarrier when no stripes are found or none are bright enough to carry phase.

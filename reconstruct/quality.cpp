@@ -115,7 +115,7 @@ double SecondPattern(const Spectrum& power) {
 double WellLitModulation(const PhaseResult& phase) {
   std::vector<float> values;
   for (std::size_t i = 0; i < phase.mask.size(); i += 17) {
-    if (phase.mask.pixels()[i] != 0) values.push_back(phase.modulation.pixels()[i]);
+    if (phase.mask.pixels()[i] != 0) values.push_back(phase.ModulationAt(i));
   }
   if (values.empty()) return 0;
   const auto at = values.begin() + static_cast<long>(3 * values.size() / 4);

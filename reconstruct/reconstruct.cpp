@@ -7,11 +7,13 @@
 #include <numeric>
 #include <utility>
 
+#include "core/vector.h"
 #include "reconstruct/colour.h"
 #include "reconstruct/detail/lateral.h"
 #include "reconstruct/detail/parallel.h"
 #include "reconstruct/detail/surface_builder.h"
 #include "reconstruct/detail/uncertainty.h"
+#include "reconstruct/quality.h"
 
 namespace striae::reconstruct {
 namespace {
@@ -68,9 +70,17 @@ ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions
   return order;
 }
 
+STRIAE_VECTORISED std::size_t CountLit(const float* amplitude, const float* background, int width, float lit) {
+  constexpr float kLitModulation = 0.05F;
+  std::uint32_t count = 0;
+  for (int x = 0; x < width; ++x) {
+    count += (amplitude[x] > lit) & (amplitude[x] > kLitModulation * background[x]) ? 1 : 0;
+  }
+  return count;
+}
+
 /// The lit field: pixels whose local mean is well above the scene's dark and that the carrier reaches at all.
 std::size_t LitField(const PhaseResult& phase) {
-  constexpr float kLitModulation = 0.05F;
   std::vector<float> amplitudes;
   for (std::size_t i = 0; i < phase.mask.size(); i += 31) {
     if (phase.mask.pixels()[i] != 0) amplitudes.push_back(phase.amplitude.pixels()[i]);
@@ -81,18 +91,16 @@ std::size_t LitField(const PhaseResult& phase) {
   const float lit = 0.1F * *middle;
   std::vector<std::size_t> in_row(static_cast<std::size_t>(phase.mask.height()), 0);
   detail::ParallelLines(phase.mask.height(), [&](int row) {
-    const float *amplitude = phase.amplitude.Row(row), *modulation = phase.modulation.Row(row);
-    int count = 0;
-    for (int x = 0; x < phase.mask.width(); ++x) count += amplitude[x] > lit && modulation[x] > kLitModulation ? 1 : 0;
-    in_row[static_cast<std::size_t>(row)] = static_cast<std::size_t>(count);
+    in_row[static_cast<std::size_t>(row)] =
+        CountLit(phase.amplitude.Row(row), phase.background.Row(row), phase.mask.width(), lit);
   });
   return std::accumulate(in_row.begin(), in_row.end(), std::size_t{0});
 }
 
-void CollectWarnings(const PhaseResult& phase, Reconstruction& out) {
+void CollectWarnings(double saturated_share, Reconstruction& out) {
   constexpr double kSaturated = 0.002, kNoteworthy = 0.02;
-  if (phase.saturated_share > kSaturated) {
-    out.warnings.push_back(std::to_string(100 * phase.saturated_share).substr(0, 4) +
+  if (saturated_share > kSaturated) {
+    out.warnings.push_back(std::to_string(100 * saturated_share).substr(0, 4) +
                            " % of the photograph is saturated and carries no phase; lower the ISO");
   }
   std::size_t all = 0;
@@ -101,11 +109,28 @@ void CollectWarnings(const PhaseResult& phase, Reconstruction& out) {
     if (region.warning.empty() || static_cast<double>(region.points) < kNoteworthy * static_cast<double>(all)) continue;
     out.warnings.push_back("region of " + std::to_string(region.points) + " pixels: " + region.warning);
   }
+  for (const std::string& warning : out.warnings) out.surface.comments.push_back(WarningComment(warning));
+}
+
+/// The order of every pixel, and whatever is said of the photograph as a whole.
+ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibration& calibration,
+               const ReconstructOptions& options, Reconstruction& out) {
+  out.carrier_period_px = phase.carrier_period_px;
+  out.direction = phase.direction;
+  out.warnings = JudgePhotograph(photograph, phase).warnings;
+  if (options.label_side_mm && options.find_target != nullptr) {
+    out.target = options.find_target(phase, calibration.camera, *options.label_side_mm);
+    if (!out.target) out.warnings.emplace_back("the label is not found in the photograph");
+  }
+  const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
+  out.regions = ResolveOrder(phase, calibration, options.distance_mm.value_or(middle_mm), out.target);
+  return detail::SmoothAlongStripes(AbsoluteOrder(phase, out.regions, calibration), phase.direction,
+                                    options.smoothing_along * phase.carrier_period_px);
 }
 
 }  // namespace
 
-Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibration& calibration,
+Result<Reconstruction> Reconstruct(Photograph photograph, const Calibration& calibration,
                                    const ReconstructOptions& options, Clock clock) {
   if (const Status fit = CheckFit(photograph, calibration); !fit) return Fail(fit.error());
   Reconstruction out;
@@ -114,31 +139,27 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
   phase_options.direction = calibration.direction;
   auto phase = MeasurePhase(photograph, phase_options);
   if (!phase) return Fail(phase.error());
-  out.carrier_period_px = phase->carrier_period_px;
-  out.direction = phase->direction;
   stages.Done("phase");
 
-  const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
-  out.regions = ResolveOrder(*phase, calibration, options.distance_mm.value_or(middle_mm));
-  ImageF order = detail::SmoothAlongStripes(AbsoluteOrder(*phase, out.regions, calibration), phase->direction,
-                                            options.smoothing_along * phase->carrier_period_px);
+  ImageF order = OrderOf(photograph, *phase, calibration, options, out);
   const std::size_t field = LitField(*phase);
   phase->unwrapped = {};  // an image of this size is 50 MB: what is done with makes room
-  phase->background = {};
+  phase->mask = {};
+  photograph.luminance = {};
   stages.Done("order");
 
   detail::PointImages images;
-  images.colour = ColourWithoutStripes(photograph.colour, order, phase->direction);
+  images.colour = ColourWithoutStripes(std::move(photograph.colour), order, phase->direction);
   stages.Done("colour");
 
   detail::OrderUncertainty(order, phase->direction, phase->carrier_period_px, phase_options.window_half_width,
-                           phase->noise, phase->amplitude);
-  const double slack_mm = options.outside_working_share * middle_mm;
-  const detail::RayTable rays(calibration.camera, photograph.luminance.width(), photograph.luminance.height());
-  images.depth = detail::Triangulate(std::move(order), calibration, rays, calibration.near_mm - slack_mm,
-                                     calibration.far_mm + slack_mm, phase->amplitude);
+                           phase->noise, phase->amplitude, phase->background);
   images.uncertainty = std::move(phase->amplitude);
-  images.modulation = std::move(phase->modulation);
+  images.modulation = std::move(phase->background);
+  const double slack_mm = options.outside_working_share * (calibration.near_mm + calibration.far_mm) / 2;
+  const detail::RayTable rays(calibration.camera, order.width(), order.height());
+  images.depth = detail::Triangulate(std::move(order), calibration, rays, calibration.near_mm - slack_mm,
+                                     calibration.far_mm + slack_mm, images.uncertainty);
   stages.Done("triangulation");
   out.surface = detail::BuildSurface(std::move(images), calibration, rays, options.faces);
   stages.Done("mesh");
@@ -150,7 +171,7 @@ Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibrati
   }
   out.coverage =
       std::min(1.0, static_cast<double>(out.surface.size()) / static_cast<double>(std::max<std::size_t>(1, field)));
-  CollectWarnings(*phase, out);
+  CollectWarnings(phase->saturated_share, out);
   return out;
 }
 

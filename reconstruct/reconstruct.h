@@ -12,12 +12,17 @@
 #include "core/surface.h"
 #include "reconstruct/order.h"
 #include "reconstruct/phase.h"
+#include "reconstruct/target.h"
 
 namespace striae::reconstruct {
 
 struct ReconstructOptions {
   PhaseOptions phase;
-  std::optional<double> distance_mm;  ///< hint; the middle of the calibration's working distance when not given
+  std::optional<double> distance_mm;    ///< hint; the middle of the calibration's working distance when not given
+  std::optional<double> label_side_mm;  ///< a label of this size is looked for; needs `find_target`
+  /// FindTarget of reconstruct/target.h. A pointer, so that a program that looks for no label need not load what finds
+  /// them.
+  std::optional<TargetSighting> (*find_target)(const PhaseResult&, const CameraModel&, double side_mm) = nullptr;
   bool faces = true;
   /// Smoothing of the order along the stripes (standard deviation in periods), where the noise is larger than the
   /// shape.
@@ -32,7 +37,8 @@ struct Reconstruction {
   double coverage = 0;               ///< share of the lit field that has a point
   double carrier_period_px = 0;
   StripeDirection direction = StripeDirection::kHorizontal;
-  std::vector<std::string> warnings;
+  std::optional<TargetSighting> target;                 ///< the label, when one was looked for and found
+  std::vector<std::string> warnings;                    ///< also in the surface's comments, as "warning: ..."
   std::vector<std::pair<std::string, double>> seconds;  ///< per stage, in their order; filled by `clock`
 };
 
@@ -41,7 +47,8 @@ using Clock = double (*)();
 
 /// kCalibrationMismatch when the photograph's size or stripe direction is not the calibration's; kNoCarrier and
 /// kBadImage as MeasurePhase; kMeasurementRefused when no point lies within the working distance.
-Result<Reconstruction> Reconstruct(const Photograph& photograph, const Calibration& calibration,
+/// The photograph's memory is used again when it is moved in.
+Result<Reconstruction> Reconstruct(Photograph photograph, const Calibration& calibration,
                                    const ReconstructOptions& options, Clock clock = nullptr);
 
 }  // namespace striae::reconstruct

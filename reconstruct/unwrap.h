@@ -1,7 +1,9 @@
 // Two-dimensional phase unwrapping along the reliability path (Herraez et al., Applied Optics 41 (2002) 7437).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/image.h"
 #include "core/result.h"
@@ -12,6 +14,7 @@ struct Unwrapped {
   ImageF phase;                ///< rad, wrapped + 2 pi k; NaN outside the mask
   Image<std::int32_t> region;  ///< connected component (4-neighbours) of the mask, 0 the largest; -1 outside
   int regions = 0;
+  std::vector<std::size_t> pixels;  ///< of every region
 };
 
 /// Unwraps every connected region of the mask by itself; each is one consistent sheet whose first pixel in row order

@@ -57,6 +57,8 @@ Status Run(const HeadOptions& options, Context& context) {
   if (!pose) return Fail(pose.error());
   auto report = head::Measure(neutral->surface, pose->surface);
   if (!report) return Fail(report.error(), "measuring head against torso");
+  for (const std::string& warning : Warnings(neutral->surface)) FlagAll(*report, "the neutral surface: " + warning);
+  for (const std::string& warning : Warnings(pose->surface)) FlagAll(*report, "the surface: " + warning);
   report->provenance.inputs = {{"neutral surface", neutral->sha256}, {"pose surface", pose->sha256}};
   context.Output(ToJson(*report), Text(*report));
   return {};

@@ -59,6 +59,7 @@ Status Run(const WoundOptions& options, Context& context) {
 
   auto report = wound::Measure(*surface, *outline);
   if (!report) return Fail(report.error(), "measuring the wound on " + options.surface.string());
+  for (const std::string& warning : Warnings(*surface)) FlagAll(*report, "the surface: " + warning);
   report->provenance.inputs = {{"surface", HashOf(*surface_bytes)}, {"outline", HashOf(*outline_bytes)}};
   context.Output(ToJson(*report), Text(*report));
   return {};

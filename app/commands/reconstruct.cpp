@@ -25,7 +25,7 @@ struct Options {
   fs::path image, calibration, out, preview;
   std::vector<fs::path> also;
   std::string format, white_balance = "as-shot";
-  double distance_mm = 0;
+  double distance_mm = 0, label_mm = 0;
   std::size_t decimate = 0;
   bool no_faces = false;
 };
@@ -134,11 +134,17 @@ nlohmann::json ToJson(const reconstruct::Reconstruction& r) {
                              {"regions", nlohmann::json::array()},
                              {"warnings", r.warnings},
                              {"seconds", nlohmann::json::object()}};
-  for (const auto& region : r.regions) {
+  for (const auto& region : reconstruct::SummarisedRegions(r.regions)) {
     nlohmann::json entry = {
         {"points", region.points}, {"order_source", ToString(region.source)}, {"order_margin", region.margin}};
     if (!region.warning.empty()) entry["warning"] = region.warning;
+    if (region.regions > 1) entry["regions"] = region.regions;
     document["regions"].push_back(entry);
+  }
+  if (r.target) {
+    document["label"] = {{"marker_id", r.target->marker_id},
+                         {"distance_mm", r.target->middle_mm.z()},
+                         {"distance_uncertainty_mm", r.target->distance_sd_mm}};
   }
   for (const auto& [stage, seconds] : r.seconds) document["seconds"][stage] = seconds;
   return document;
@@ -155,18 +161,25 @@ Status Reconstruct(Context& context, const Options& options) {
   const double start = Now();
   const auto bytes = ReadFile(options.image);
   if (!bytes) return Fail(bytes.error());
-  const auto photograph = DecodePhotograph(*bytes);
+  auto photograph = DecodePhotograph(*bytes);
   if (!photograph) return Fail(photograph.error(), options.image.string());
   const double decoded = Now();
+  const std::string photograph_sha256 = HashOf(*bytes).ToString();
 
   reconstruct::ReconstructOptions settings;
   if (options.distance_mm > 0) settings.distance_mm = options.distance_mm;
   settings.faces = !options.no_faces;
-  auto result = reconstruct::Reconstruct(*photograph, *calibration, settings, Now);
+  if (options.label_mm > 0) {
+    settings.label_side_mm = options.label_mm;
+    settings.find_target = reconstruct::FindTarget;
+  }
+  // The previews need the photograph again; without them its memory is used for the surface.
+  auto result = reconstruct::Reconstruct(options.preview.empty() ? *std::move(photograph) : *photograph, *calibration,
+                                         settings, Now);
   if (!result) return Fail(result.error(), options.image.string());
-  result->surface.comments = {"striae " + std::string(StriaeVersion()),
-                              "photograph sha256 " + HashOf(*bytes).ToString(),
-                              "calibration sha256 " + calibration_sha256.ToString()};
+  const std::string made_of[] = {"striae " + std::string(StriaeVersion()), "photograph sha256 " + photograph_sha256,
+                                 "calibration sha256 " + calibration_sha256.ToString()};
+  result->surface.comments.insert(result->surface.comments.begin(), std::begin(made_of), std::end(made_of));
   if (const auto gains = reconstruct::Balance(*balance, result->surface); !gains) return Fail(gains.error());
   const double reconstructed = Now();
   nlohmann::json files;
@@ -212,6 +225,8 @@ void AddCommand_reconstruct(CLI::App& root, Context& context) {
                    "as-shot, grey-world, white-patch or grey-card=COL,ROW (a sensor pixel on the card)")
       ->capture_default_str();
   command->add_option("--distance-mm", options->distance_mm, "Distance of the subject, if known better than the rig's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--label-mm", options->label_mm, "Side of the printed label in view (striae print label), mm")
       ->check(CLI::PositiveNumber);
   command->add_option("--preview", options->preview, "Folder for photo, shaded, depth, phase, mask and modulation.png");
   command->add_flag("--no-faces", options->no_faces, "Write points only");

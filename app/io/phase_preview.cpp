@@ -94,7 +94,9 @@ Result<std::vector<std::uint8_t>> PhasePreview(const reconstruct::PhaseResult& p
 }
 
 Result<std::vector<std::uint8_t>> ModulationPreview(const reconstruct::PhaseResult& phase, int max_side_px) {
-  return MapPreview(phase.modulation, {0, 1, "modulation"}, 1, max_side_px);
+  ImageF modulation(phase.mask.width(), phase.mask.height());
+  for (std::size_t i = 0; i < modulation.size(); ++i) modulation.pixels()[i] = phase.ModulationAt(i);
+  return MapPreview(modulation, {0, 1, "modulation"}, 1, max_side_px);
 }
 
 Result<std::vector<std::uint8_t>> MaskPreview(const Photograph& photograph, const Mask& mask, int max_side_px) {

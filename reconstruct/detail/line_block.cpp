@@ -174,9 +174,7 @@ STRIAE_VECTORISED void GroupMaximum(const float* in, int length, int group, floa
 }
 
 STRIAE_VECTORISED void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length,
-                                  int group, int reach, const MaskLimits& limits, float* modulation,
-                                  std::uint8_t* mask) {
-  const Floats one = Floats{} + 1.0F, least = Floats{} + 1e-6F;
+                                  int group, int reach, const MaskLimits& limits, std::uint8_t* mask) {
   const Floats share = Floats{} + limits.least_share, between = Floats{} + limits.least_share_between;
   for (int first = 0, g = 0; first < length; first += group, ++g) {
     // The maxima within `reach` around the place, and within twice of it before and after.
@@ -190,8 +188,6 @@ STRIAE_VECTORISED void JudgeLanes(const float* amplitude, const float* backgroun
       const Floats a = STRIAE_LANES(const Floats, amplitude + At(i));
       const Floats b = STRIAE_LANES(const Floats, background + At(i));
       const Ints kept = (a > needed) & (a > limits.least_modulation * b);
-      const Floats ratio = a / (b > least ? b : least);
-      STRIAE_LANES(Floats, modulation + At(i)) = ratio < one ? ratio : one;
       STRIAE_LANES(Bytes, mask + At(i)) = __builtin_convertvector(-kept, Bytes);
     }
   }

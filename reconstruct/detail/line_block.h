@@ -102,10 +102,10 @@ struct MaskLimits {
   int least_run_px = 1;           ///< along the line
 };
 
-/// modulation = amplitude / background within 0..1; mask = 1 where the limits hold. `maximum` is LaneMaximum's over
+/// mask = 1 where the limits hold. `maximum` is LaneMaximum's over
 /// groups of `group` positions, with that reach (in groups).
 void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length, int group, int reach,
-                const MaskLimits& limits, float* modulation, std::uint8_t* mask);
+                const MaskLimits& limits, std::uint8_t* mask);
 
 /// Takes out runs of valid pixels shorter than `least` along each lane.
 void DropShortRuns(std::uint8_t* mask, int length, int least, Lanes<std::uint16_t>& scratch);

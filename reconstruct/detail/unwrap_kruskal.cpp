@@ -149,6 +149,7 @@ Unwrapped UnwrapByKruskal(const ImageF& wrapped, const Mask& mask) {
   const std::vector<std::int32_t> rank = RankBySize(found);
   for (std::int32_t& r : out.region.pixels()) r = r < 0 ? -1 : rank[static_cast<std::size_t>(r)];
   out.regions = static_cast<int>(found.size());
+  out.pixels = PixelsByRank(found, rank);
   return out;
 }
 

@@ -68,8 +68,8 @@ class Rows {
     for (std::size_t row = 1; row < segments_.size(); ++row) JoinToAbove(static_cast<int>(row));
   }
 
-  /// Segments get their region and the turns relative to its first pixel; returns the number of regions.
-  int Settle() {
+  /// Segments get their region and the turns relative to its first pixel; returns the pixels of every region.
+  std::vector<std::size_t> Settle() {
     std::vector<RegionFound> found;
     std::vector<std::int32_t> number(sheets_.size(), -1);  // of a root, in the order of appearance
     for (Segments& row : segments_) {
@@ -91,7 +91,7 @@ class Rows {
     for (Segments& row : segments_) {
       for (Segment& segment : row) segment.region = rank[static_cast<std::size_t>(segment.region)];
     }
-    return static_cast<int>(found.size());
+    return PixelsByRank(found, rank);
   }
 
   [[nodiscard]] const Segments& Of(int row) const { return segments_[static_cast<std::size_t>(row)]; }
@@ -128,8 +128,9 @@ class Rows {
 
 Unwrapped UnwrapBetweenCuts(ImageF wrapped, const Mask& mask, const std::vector<std::uint32_t>& cuts) {
   Rows rows(wrapped, mask, cuts);
-  const int width = wrapped.width(), height = wrapped.height(), regions = rows.Settle();
-  Unwrapped out{std::move(wrapped), Image<std::int32_t>::Unset(width, height), regions};
+  const int width = wrapped.width(), height = wrapped.height();
+  Unwrapped out{std::move(wrapped), Image<std::int32_t>::Unset(width, height), 0, rows.Settle()};
+  out.regions = static_cast<int>(out.pixels.size());
   ParallelLines(height, [&](int row) {
     float* phase = out.phase.Row(row);
     std::int32_t* region = out.region.Row(row);

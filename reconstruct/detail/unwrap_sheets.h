@@ -68,4 +68,12 @@ inline std::vector<std::int32_t> RankBySize(const std::vector<RegionFound>& regi
   return rank;
 }
 
+inline std::vector<std::size_t> PixelsByRank(const std::vector<RegionFound>& regions,
+                                             const std::vector<std::int32_t>& rank) {
+  std::vector<std::size_t> pixels(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    pixels[static_cast<std::size_t>(rank[i])] = static_cast<std::size_t>(regions[i].pixels);
+  return pixels;
+}
+
 }  // namespace striae::reconstruct::detail

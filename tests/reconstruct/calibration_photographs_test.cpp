@@ -122,7 +122,7 @@ PhaseResult TwoSheets() {
   phase.carrier_period_px = 20;
   phase.mask = Mask(400, 300, 1);
   phase.amplitude = ImageF(400, 300, 0.2F);
-  phase.modulation = phase.background = ImageF(400, 300, 0.5F);
+  phase.background = ImageF(400, 300, 0.5F);
   phase.noise = 0.001;
   phase.unwrapped.phase = ImageF(400, 300);
   phase.unwrapped.region = Image<std::int32_t>(400, 300, 0);
