@@ -74,6 +74,13 @@ class LightReader {
   /// Returns the number of saturated pixels.
   std::size_t Read(int block, BlockMemory& m) const {
     const int halo = static_cast<int>(kernel_.size()) - 1;
+    if (halo == 0) {  // nothing to smooth: read in place
+      layout_.LoadWithHalo(photograph_.luminance, block, 0, m.light.data());
+      const std::size_t saturated = detail::CountAtLeast(m.light.data(), layout_.length(), 0, layout_.LanesOf(block),
+                                                         photograph_.saturation_level);
+      if (!photograph_.linear) detail::DecodeSrgb(m.light.data(), m.light.size());
+      return saturated;
+    }
     m.with_halo.resize(static_cast<std::size_t>(layout_.length()) * static_cast<std::size_t>(kLanes + 2 * halo));
     layout_.LoadWithHalo(photograph_.luminance, block, halo, m.with_halo.data());
     const std::size_t saturated = detail::CountAtLeast(m.with_halo.data(), layout_.length(), halo,

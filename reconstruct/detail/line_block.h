@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "core/buffer.h"
@@ -17,6 +18,9 @@ constexpr int kLanes = 16;
 /// value[position * kLanes + lane]; a lane is a line.
 template <typename T>
 using Lanes = Buffer<T>;
+
+/// Copies `width` values of every row; rows lie `from_stride` and `to_stride` values apart.
+void CopyRows(const float* from, std::size_t from_stride, int rows, int width, float* to, std::size_t to_stride);
 
 /// Where the lines lie in an image: along columns (horizontal stripes) or along rows.
 class LineLayout {
@@ -47,12 +51,14 @@ class LineLayout {
   template <typename T>
   void Store(const T* lanes, int block, Image<T>& image) const {
     const int first = block * kLanes, count = LanesOf(block);
+    if constexpr (std::is_same_v<T, float>) {
+      if (along_columns_) {
+        CopyRows(lanes, kLanes, length(), count, image.Row(0) + first, static_cast<std::size_t>(width_));
+        return;
+      }
+    }
     for (int position = 0; position < length(); ++position) {
       const T* from = lanes + static_cast<std::size_t>(position) * kLanes;
-      if (along_columns_ && count == kLanes) {
-        std::copy_n(from, kLanes, image.Row(position) + first);
-        continue;
-      }
       for (int lane = 0; lane < count; ++lane) {
         (along_columns_ ? image(first + lane, position) : image(position, first + lane)) = from[lane];
       }
