@@ -8,6 +8,7 @@
 #include "store/detail/codec.h"
 #include "store/detail/disk.h"
 #include "store/detail/impl.h"
+#include "store/identity.h"
 
 namespace striae::store {
 namespace {
@@ -95,7 +96,13 @@ void CopyStudy(const fs::path& from, const ObjectStore& objects, const fs::path&
     CopyObjects(copy, objects, kept, progress, report);
   }
   CopyFolder(from / "quarantine", to / "quarantine");
-  if (fs::exists(from / "identity.striae")) detail::CopyNew(from / "identity.striae", to / "identity.striae");
+}
+
+/// As private as the first.
+void CopyIdentities(const fs::path& from, const fs::path& to) {
+  if (!fs::exists(from / kIdentityName)) return;
+  detail::CopyNew(from / kIdentityName, to / kIdentityName);
+  fs::permissions(to / kIdentityName, fs::perms::owner_read | fs::perms::owner_write);
 }
 
 /// Gives the copy its study.db, checks it, and only then takes the mark of the unfinished away.
@@ -166,6 +173,7 @@ Result<BackupReport> Backup(Record& record, const fs::path& destination, const P
     const Record::Impl& study = detail::Access::Of(record);
     BackupReport report;
     CopyStudy(study.folder, study.objects, destination, progress, report);
+    CopyIdentities(study.folder, destination);
     Finish(destination, progress, stamp, report);
     const std::string manifest = ManifestOf(report, stamp).dump(1) + "\n";
     detail::WriteNew(destination / kManifestName, BytesOf(manifest));
@@ -187,6 +195,7 @@ Result<BackupReport> Restore(const fs::path& source, const fs::path& destination
     const auto noted = HeadOfManifest(source);
     BackupReport report;
     CopyStudy(source, Unwrap(ObjectStore::Open(source / "objects")), destination, options.progress, report);
+    if (!options.branch) CopyIdentities(source, destination);  // names stay at their site
     Finish(destination, options.progress, stamp, report);
     if (noted && (noted->sequence != report.head.sequence || noted->hash != report.head.hash)) {
       Refuse(ErrorCode::kRecordDamaged, source.string() + " was changed since the backup was made: its trail ends at " +

@@ -1,13 +1,9 @@
 // kill -9 at any step of any change: what was acknowledged is there, and the rest is settled by a repair.
 //
-// The child of a fork works with the record and is killed at its n-th call that changes a file: the calls of the C
-// library below stand before the system's own, SQLite's and libsodium's included. A write is cut in the middle first.
+// The child of a fork works with the record and is killed at its n-th call that changes a file.
 #include <csignal>
 #include <random>
 
-#include <dlfcn.h>
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,76 +14,7 @@
 #include "store/repair.h"
 #include "tests/store/findings.h"
 #include "tests/support/files.h"
-
-namespace {
-
-long calls_left = -1;  ///< before the kill; negative: none comes
-
-/// True at the call that is the last.
-bool IsLast() { return calls_left >= 0 && calls_left-- == 0; }
-[[noreturn]] void Die() {
-  ::kill(::getpid(), SIGKILL);
-  ::_exit(1);
-}
-template <typename Function>
-Function* System(const char* name) {
-  return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
-}
-
-}  // namespace
-
-extern "C" {
-
-ssize_t write(int file, const void* data, size_t size) {
-  static auto* const system = System<ssize_t(int, const void*, size_t)>("write");
-  if (!IsLast()) return system(file, data, size);
-  (void)system(file, data, size / 2);
-  Die();
-}
-ssize_t pwrite64(int file, const void* data, size_t size, off64_t at) {
-  static auto* const system = System<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");
-  if (!IsLast()) return system(file, data, size, at);
-  (void)system(file, data, size / 2, at);
-  Die();
-}
-ssize_t pwrite(int file, const void* data, size_t size, off_t at) { return pwrite64(file, data, size, at); }
-int fsync(int file) {
-  static auto* const system = System<int(int)>("fsync");
-  if (IsLast()) Die();
-  return system(file);
-}
-int fdatasync(int file) {
-  static auto* const system = System<int(int)>("fdatasync");
-  if (IsLast()) Die();
-  return system(file);
-}
-int link(const char* from, const char* to) noexcept {
-  static auto* const system = System<int(const char*, const char*)>("link");
-  if (IsLast()) Die();
-  return system(from, to);
-}
-int unlink(const char* name) noexcept {
-  static auto* const system = System<int(const char*)>("unlink");
-  if (IsLast()) Die();
-  return system(name);
-}
-int rename(const char* from, const char* to) noexcept {
-  static auto* const system = System<int(const char*, const char*)>("rename");
-  if (IsLast()) Die();
-  return system(from, to);
-}
-int ftruncate64(int file, off64_t size) noexcept {
-  static auto* const system = System<int(int, off64_t)>("ftruncate64");
-  if (IsLast()) Die();
-  return system(file, size);
-}
-int mkdir(const char* name, mode_t mode) noexcept {
-  static auto* const system = System<int(const char*, mode_t)>("mkdir");
-  if (IsLast()) Die();
-  return system(name, mode);
-}
-
-}  // extern "C"
+#include "tests/support/killed_calls.h"
 
 namespace striae::testing {
 namespace {
@@ -109,9 +36,9 @@ Said KilledAt(long n, Work work) {
   EXPECT_EQ(::pipe(pipe_ends), 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    calls_left = n;
+    striae_test_calls_left = n;
     work();
-    calls_left = -1;
+    striae_test_calls_left = -1;
     (void)::write(pipe_ends[1], "x", 1);
     ::_exit(0);
   }
