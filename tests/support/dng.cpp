@@ -59,7 +59,9 @@ void PutDirectory(std::vector<std::uint8_t>& bytes, std::vector<Entry> entries) 
 }  // namespace
 
 std::vector<std::uint8_t> MakeDng(const DngOptions& options, const std::function<std::uint16_t(int, int, int)>& value) {
-  std::vector<std::uint8_t> bytes = {'I', 'I', 42, 0, 0, 0, 0, 0};
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(1024 + options.preview_jpeg.size());  // g++ 12 sees a copy out of bounds in a vector that grows from 8
+  for (const std::uint8_t byte : {'I', 'I', '*', '\0', '\0', '\0', '\0', '\0'}) bytes.push_back(byte);
   const auto preview_at = static_cast<std::uint32_t>(bytes.size());
   bytes.insert(bytes.end(), options.preview_jpeg.begin(), options.preview_jpeg.end());
   if (bytes.size() % 2 != 0) bytes.push_back(0);
