@@ -3,12 +3,22 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <thread>
 #include <vector>
 
 namespace striae::reconstruct::detail {
 
-inline int ThreadCount() { return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U)); }
+/// All processors, or as many as the environment's STRIAE_THREADS says (to share a machine, or to check that results do
+/// not depend on it).
+inline int ThreadCount() {
+  static const int count = [] {
+    const char* wanted = std::getenv("STRIAE_THREADS");
+    const int asked = wanted != nullptr ? std::atoi(wanted) : 0;
+    return asked > 0 ? std::min(asked, 16) : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+  }();
+  return count;
+}
 
 /// Calls body(thread, first, last) for blocks of [0, count); `thread` < ThreadCount() is for scratch memory.
 template <typename Body>
