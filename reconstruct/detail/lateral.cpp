@@ -17,15 +17,21 @@ constexpr int kCell = 16;
 /// A pair's mean minus the pixel has sqrt(1.5) of the noise; beyond this many standard deviations it is shape.
 constexpr float kLargest = 3.0F;
 
-/// Adds |fourth difference| to sums[x / kCell], and 1 to counts, where all five pixels are there.
-STRIAE_VECTORISED void AddFourthDifferences(const float* const pixels[5], int first, int last, float* scratch,
-                                            float* sums, float* counts) {
+/// Adds |fourth difference| to sums[x / kCell], and 1 to counts, where all five pixels are there; `first` and `last`
+/// are whole cells.
+STRIAE_VECTORISED void AddFourthDifferences(const float* const pixels[5], int first, int last, float* sums,
+                                            float* counts) {
   const float *a = pixels[0], *b = pixels[1], *c = pixels[2], *d = pixels[3], *e = pixels[4];
-  for (int x = first; x < last; ++x) scratch[x] = std::abs(a[x] + e[x] - 4 * (b[x] + d[x]) + 6 * c[x]);
-  for (int x = first; x < last; ++x) {
-    const bool there = scratch[x] == scratch[x];
-    sums[x / kCell] += there ? scratch[x] : 0.0F;
-    counts[x / kCell] += there ? 1.0F : 0.0F;
+  for (int cell = first; cell < last; cell += kCell) {
+    float sum[kCell], count[kCell];
+    for (int k = 0; k < kCell; ++k) {
+      const int x = cell + k;
+      const float difference = std::abs(a[x] + e[x] - 4 * (b[x] + d[x]) + 6 * c[x]);
+      const bool there = difference == difference;
+      sum[k] = there ? difference : 0.0F;
+      count[k] = there ? 1.0F : 0.0F;
+    }
+    for (int k = 0; k < kCell; ++k) sums[cell / kCell] += sum[k], counts[cell / kCell] += count[k];
   }
 }
 
@@ -45,6 +51,17 @@ STRIAE_VECTORISED void SmoothRow(const float* at, const float* const* before, co
     }
   }
   for (int x = first; x < last; ++x) out[x] = at[x] + sum[x] / weight[x];
+}
+
+/// Pixels [first, last) of a row hold all that are not NaN.
+struct Extent {
+  int first, last;
+};
+Extent ExtentOf(const float* row, int width) {
+  Extent extent{0, width};
+  while (extent.first < width && std::isnan(row[extent.first])) ++extent.first;
+  while (extent.last > extent.first && std::isnan(row[extent.last - 1])) --extent.last;
+  return extent;
 }
 
 /// Rows of an image with neighbours along the stripe: in the row itself, or in other rows.
@@ -77,15 +94,18 @@ ImageF NoiseLimits(const ImageF& order, bool along_rows, int spacing) {
   ImageF limits(columns, rows, 0.0F);
   const Neighbours neighbours(order, along_rows, 2 * spacing);
   ParallelLines(rows, [&](int cell_row) {
-    std::vector<float> counts(static_cast<std::size_t>(columns), 0.0F),
-        scratch(static_cast<std::size_t>(order.width()));
+    std::vector<float> counts(static_cast<std::size_t>(columns), 0.0F);
     float* sums = limits.Row(cell_row);
     for (int row = cell_row * kCell; row < std::min(order.height(), (cell_row + 1) * kCell); ++row) {
       if (!neighbours.Has(row)) continue;
       const float* own = order.Row(row);
       const float* pixels[5];
       for (int k = 0; k < 5; ++k) pixels[k] = neighbours.At(own, row, spacing * (k - 2));
-      AddFourthDifferences(pixels, neighbours.first(), neighbours.last(), scratch.data(), sums, counts.data());
+      const Extent extent = ExtentOf(own, order.width());
+      // Whole cells with all neighbours; what is left out at the ends has no noise, and stays as it is.
+      const int first = (std::max(neighbours.first(), extent.first) + kCell - 1) / kCell * kCell;
+      const int last = std::min(neighbours.last(), extent.last) / kCell * kCell;
+      AddFourthDifferences(pixels, first, last, sums, counts.data());
     }
     for (int x = 0; x < columns; ++x) {
       const float count = counts[static_cast<std::size_t>(x)];
@@ -99,7 +119,9 @@ ImageF NoiseLimits(const ImageF& order, bool along_rows, int spacing) {
 }  // namespace
 
 ImageF SmoothAlongStripes(ImageF order, StripeDirection direction, double sigma_px) {
-  const std::vector<float> kernel = GaussianKernel(sigma_px);
+  std::vector<float> kernel = GaussianKernel(sigma_px);
+  // What lies beyond two and a half standard deviations weighs little and costs as much as the rest.
+  kernel.resize(std::min(kernel.size(), static_cast<std::size_t>(2.5 * sigma_px) + 1));
   const int reach = static_cast<int>(kernel.size()) - 1, width = order.width();
   if (reach < 1) return order;
   const bool along_rows = direction == StripeDirection::kHorizontal;
@@ -113,14 +135,17 @@ ImageF SmoothAlongStripes(ImageF order, StripeDirection direction, double sigma_
     std::vector<const float*> before(kernel.size()), after(kernel.size());
     for (int row = first; row < last; ++row) {
       if (!neighbours.Has(row)) continue;
+      const Extent extent = ExtentOf(order.Row(row), width);
+      const int from = std::max(extent.first, neighbours.first()), to = std::min(extent.last, neighbours.last());
+      if (from >= to) continue;
       std::copy_n(order.Row(row), count, own.data());
-      for (int x = 0; x < width; ++x) largest[static_cast<std::size_t>(x)] = limits(x / kCell, row / kCell);
+      for (int x = from; x < to; ++x) largest[static_cast<std::size_t>(x)] = limits(x / kCell, row / kCell);
       for (int k = 1; k <= reach; ++k) {
         before[static_cast<std::size_t>(k)] = neighbours.At(own.data(), row, -k);
         after[static_cast<std::size_t>(k)] = neighbours.At(own.data(), row, k);
       }
-      SmoothRow(own.data(), before.data(), after.data(), kernel, largest.data(), neighbours.first(), neighbours.last(),
-                sum.data(), weight.data(), along_rows ? order.Row(row) : apart.Row(row));
+      SmoothRow(own.data(), before.data(), after.data(), kernel, largest.data(), from, to, sum.data(), weight.data(),
+                along_rows ? order.Row(row) : apart.Row(row));
     }
   });
   return along_rows ? std::move(order) : std::move(apart);
