@@ -23,28 +23,43 @@ bool IsPhotographName(const std::string& name) {
 }
 
 Status AddFolder(const fs::path& folder, std::vector<fs::path>& files) {
+  auto listing = ListFolder(folder);
+  if (!listing) return Fail(listing.error());
+  if (listing->files.empty()) {
+    return Fail(ErrorCode::kNotFound, folder.string() + " holds no JPEG or NEF file; check the folder");
+  }
+  files.insert(files.end(), listing->files.begin(), listing->files.end());
+  return {};
+}
+
+}  // namespace
+
+Result<FolderListing> ListFolder(const fs::path& folder) {
+  FolderListing listing;
+  listing.folders.push_back(folder);
   std::error_code code;
-  const std::size_t before = files.size();
   fs::recursive_directory_iterator entry(folder, code), end;
   for (; !code && entry != end; entry.increment(code)) {
     const std::string name = entry->path().filename().string();
     std::error_code unreadable;
     if (entry->is_directory(unreadable)) {
-      if (name[0] == '.') entry.disable_recursion_pending();  // .Trashes and the like
+      if (name[0] == '.') {
+        entry.disable_recursion_pending();  // .Trashes and the like
+      } else if (!entry->is_symlink(unreadable)) {
+        listing.folders.push_back(entry->path());
+      }
     } else if (IsPhotographName(name) && entry->is_regular_file(unreadable)) {
-      files.push_back(entry->path());
+      listing.files.push_back(entry->path());
     }
   }
   if (code) {
-    return Fail(ErrorCode::kIo, "cannot list " + folder.string() + " (" + code.message() + "); check its permissions");
+    return Fail(
+        code == std::errc::no_such_file_or_directory ? ErrorCode::kNotFound : ErrorCode::kIo,
+        "cannot list " + folder.string() + " (" + code.message() + "); check that it is there and its permissions");
   }
-  if (files.size() == before) {
-    return Fail(ErrorCode::kNotFound, folder.string() + " holds no JPEG or NEF file; check the folder");
-  }
-  return {};
+  std::sort(listing.files.begin(), listing.files.end());
+  return listing;
 }
-
-}  // namespace
 
 Result<std::vector<fs::path>> ListPhotographs(const std::vector<fs::path>& paths) {
   std::vector<fs::path> files;

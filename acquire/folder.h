@@ -15,6 +15,12 @@ namespace striae::acquire {
 /// no photograph at all.
 Result<std::vector<std::filesystem::path>> ListPhotographs(const std::vector<std::filesystem::path>& paths);
 
+/// A folder as it is now: its photographs (as above; none is no error), and itself with the folders below.
+struct FolderListing {
+  std::vector<std::filesystem::path> files, folders;
+};
+Result<FolderListing> ListFolder(const std::filesystem::path& folder);
+
 /// Reads each file in turn; the files themselves are only read, never moved, renamed or deleted.
 class FolderSource : public CaptureSource {
  public:
