@@ -61,7 +61,7 @@ Status Judge(const Solved& solved, const RigFit& fit, std::size_t views) {
 }
 
 /// Least squares or Powell for the pinhole model; for the angular one, from the whole stripes that were found so.
-Result<Solved> Run(RigFit& fit, const RigParameters& angular_start, const SolveOptions& options, std::size_t views) {
+Result<Solved> Run(RigFit& fit, const SolveOptions& options, std::size_t views) {
   const bool powell = options.optimizer == Optimizer::kPowell;
   auto solved = powell ? SolveByPowell(fit, options) : SolveByLeastSquares(fit, options);
   if (!solved) return solved;
@@ -72,9 +72,9 @@ Result<Solved> Run(RigFit& fit, const RigParameters& angular_start, const SolveO
   }
   if (options.model == ProjectorModel::Kind::kPinhole) return solved;
   const ProjectorLaw angular{ProjectorModel::Kind::kAngular, fit.law().axis};
-  RigParameters start = angular_start;
-  start.projector[7] += fit.parameters().projector[7] - fit.nominal().projector[7];  // the gauge that has been found
-  fit.ChangeLaw(angular, start);
+  RigParameters design = detail::AngularFrom(fit.nominal(), angular.axis);
+  design.projector[7] += fit.parameters().projector[7] - fit.nominal().projector[7];  // the gauge that has been found
+  fit.ChangeLaw(angular, design, detail::AngularFrom(fit.parameters(), angular.axis));
   if (!(powell ? RefineByPowell(fit, options) : RefineByLeastSquares(fit, options))) {
     return Refuse("the angular model did not converge");
   }
@@ -141,7 +141,7 @@ Result<CalibrationFit> SolveCalibration(const ReferenceShape& shape, const std::
   detail::FindObject(shape, *nearest, start);
   const int axis = nominal.direction == StripeDirection::kHorizontal ? 1 : 0;
   RigFit solver(shape, views, start, {ProjectorModel::Kind::kPinhole, axis});
-  const auto solved = Run(solver, detail::AngularFrom(start, axis), options, views.size());
+  const auto solved = Run(solver, options, views.size());
   if (!solved) return Fail(solved.error());
 
   CalibrationFit fit;

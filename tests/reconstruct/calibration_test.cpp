@@ -1,111 +1,24 @@
 // The calibration's solver on phases computed from the geometry: a plate with domes before an invented rig.
 #include <cmath>
-#include <random>
 
-#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
 #include "core/optics.h"
-#include "reconstruct/calibrate/solve.h"
+#include "tests/reconstruct/calibration_scene.h"
 
 namespace striae::reconstruct {
 namespace {
 
-/// A plate of 300 x 260 mm with five domes; 2 mm triangles.
-Surface DomedPlate() {
-  constexpr int kCols = 151, kRows = 131;
-  const Eigen::Vector3d domes[] = {{-90, -70, 40}, {80, -75, 34}, {0, 0, 45}, {-85, 75, 36}, {90, 70, 42}};
-  Surface mesh;
-  for (int row = 0; row < kRows; ++row) {
-    for (int col = 0; col < kCols; ++col) {
-      const double x = 2 * (col - 75), y = 2 * (row - 65);
-      double z = 0;
-      for (const auto& dome : domes) {
-        const double r2 = (std::pow(x - dome.x(), 2) + std::pow(y - dome.y(), 2)) / (dome.z() * dome.z());
-        if (r2 < 1) z = -20 * std::pow(1 - r2, 2);
-      }
-      mesh.point_in_camera.emplace_back(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-    }
-  }
-  for (std::uint32_t row = 0; row + 1 < kRows; ++row) {
-    for (std::uint32_t col = 0; col + 1 < kCols; ++col) {
-      const std::uint32_t i = row * kCols + col;
-      mesh.faces.push_back({i, i + kCols, i + 1});
-      mesh.faces.push_back({i + 1, i + kCols, i + kCols + 1});
-    }
-  }
-  return mesh;
-}
-
-/// Unlike the nominal rig in every number.
-Calibration TrueRig() {
-  Calibration rig;
-  rig.image_width_px = 4288;
-  rig.image_height_px = 2848;
-  rig.camera = {9495, 9502, 2128, 1439, -0.04, 0.03, 0, 0};
-  rig.projector.center_mm = {3.5, -109, 51};
-  rig.projector.rotation_rodrigues = {0.112, 0.004, -0.006};
-  rig.projector.focal_stripes = 527;
-  rig.projector.center_order = 68.4;
-  rig.projector.k1 = -0.02;
-  rig.stripes = 140;
-  return rig;
-}
-
-NominalRig Nominal() {
-  NominalRig nominal;
-  nominal.image_width_px = 4288;
-  nominal.image_height_px = 2848;
-  nominal.stripes = 140;
-  nominal.first_distance_mm = 900;
-  return nominal;
-}
-
-CalibrationFit TruePose() {
-  CalibrationFit pose;
-  pose.camera_from_object =
-      (Eigen::AngleAxisd(0.08, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(-0.06, Eigen::Vector3d::UnitY()) *
-       Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ()))
-          .toRotationMatrix();
-  pose.object_in_camera_mm = {9, -7, 912};
-  pose.slide_direction = Eigen::Vector3d(0.015, -0.02, 1).normalized();
-  return pose;
-}
-
-constexpr double kPhaseNoise_stripes = 0.01;
-
-std::vector<CalibrationView> Photograph(const ReferenceShape& shape, int photographs, double step_mm) {
-  const Calibration rig = TrueRig();
-  const StripeOptics optics(rig);
-  const CalibrationFit pose = TruePose();
-  std::mt19937 engine(17);
-  std::normal_distribution<double> noise(0, kPhaseNoise_stripes);
-  std::vector<CalibrationView> views;
-  for (int v = 0; v < photographs; ++v) {
-    CalibrationView view;
-    view.position_mm = step_mm * v;
-    const double unknown = 3 - 7.0 * v;  // unwrapping starts each photograph at a whole number of its own
-    for (int row = 20; row < rig.image_height_px; row += 44) {
-      for (int col = 20; col < rig.image_width_px; col += 44) {
-        const Eigen::Vector3d ray = RayOf(rig.camera, {static_cast<double>(col), static_cast<double>(row)});
-        const auto depth = pose.ReferenceDepth(shape, ray, view.position_mm, false);
-        if (!depth) continue;
-        const auto order = optics.OrderAt(*depth * ray);
-        if (!order || *order < -0.25 || *order > 139.25) continue;
-        view.samples.push_back(
-            {{static_cast<double>(col), static_cast<double>(row)}, *order + unknown + noise(engine)});
-      }
-    }
-    view.low_edge_order = -0.52 + unknown;
-    views.push_back(std::move(view));
-  }
-  return views;
-}
+using testing::DomedPlate;
+using testing::kPhaseNoise_stripes;
+using testing::Nominal;
+using testing::PhotographPlate;
+using testing::TrueRig;
 
 TEST(SolveCalibration, FindsTheRigFromShapeAndStepsAlone) {
   const auto shape = ReferenceShape::FromMesh(DomedPlate());
   ASSERT_TRUE(shape) << shape.error().message;
-  const auto fit = SolveCalibration(*shape, Photograph(*shape, 9, 25), Nominal());
+  const auto fit = SolveCalibration(*shape, PhotographPlate(*shape, 9, 25), Nominal());
   ASSERT_TRUE(fit) << fit.error().message;
   EXPECT_TRUE(fit->order_is_absolute);
   EXPECT_NEAR(fit->sd_stripes, kPhaseNoise_stripes, 0.1 * kPhaseNoise_stripes);
@@ -144,14 +57,14 @@ std::vector<CalibrationView> Transposed(std::vector<CalibrationView> views) {
   return views;
 }
 
-TEST(SolveCalibration, FindsARigWithVerticalStripes) {
+TEST(SolveCalibrationLong, FindsARigWithVerticalStripes) {
   const auto upright = ReferenceShape::FromMesh(DomedPlate());
   const auto shape = ReferenceShape::FromMesh(Transposed(DomedPlate()));
   ASSERT_TRUE(upright && shape);
   NominalRig nominal = Nominal();
   std::swap(nominal.image_width_px, nominal.image_height_px);
   nominal.direction = StripeDirection::kVertical;
-  const auto fit = SolveCalibration(*shape, Transposed(Photograph(*upright, 7, 30)), nominal);
+  const auto fit = SolveCalibration(*shape, Transposed(PhotographPlate(*upright, 7, 30)), nominal);
   ASSERT_TRUE(fit) << fit.error().message;
   const Calibration rig = TrueRig();
   EXPECT_EQ(fit->calibration.direction, StripeDirection::kVertical);
@@ -176,17 +89,34 @@ TEST(SolveCalibration, RefusesAnotherObjectAtOnce) {
   }
   const auto wrong = ReferenceShape::FromMesh(other);
   ASSERT_TRUE(shape && wrong);
-  const auto views = Photograph(*shape, 3, 50);
+  const auto views = PhotographPlate(*shape, 3, 50);
   EXPECT_TRUE(CheckObject(*shape, views[0], Nominal()));
   const Status refused = CheckObject(*wrong, views[0], Nominal());
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, ::testing::HasSubstr("is it the right mesh"));
 }
 
+TEST(SolveCalibrationLong, RefusesPositionsThatAreNotThePhotographs) {
+  const auto shape = ReferenceShape::FromMesh(DomedPlate());
+  ASSERT_TRUE(shape);
+  const auto views = PhotographPlate(*shape, 6, 40);
+  auto reversed = views;
+  for (std::size_t v = 0; v < views.size(); ++v) reversed[v].position_mm = views[views.size() - 1 - v].position_mm;
+  auto swapped = views;
+  std::swap(swapped[2].position_mm, swapped[4].position_mm);
+  auto inches = views;
+  for (auto& view : inches) view.position_mm *= 0.394;  // read off the wrong scale
+  for (const auto& wrong : {reversed, swapped, inches}) {
+    const auto refused = SolveCalibration(*shape, wrong, Nominal());
+    ASSERT_FALSE(refused) << "sd " << refused->sd_stripes << ", fy " << refused->calibration.camera.fy;
+    EXPECT_EQ(refused.error().code, ErrorCode::kBadCalibration);
+  }
+}
+
 TEST(SolveCalibration, RefusesWhatCannotDetermineTheRig) {
   const auto shape = ReferenceShape::FromMesh(DomedPlate());
   ASSERT_TRUE(shape);
-  auto views = Photograph(*shape, 4, 50);
+  auto views = PhotographPlate(*shape, 4, 50);
   EXPECT_FALSE(SolveCalibration(*shape, {views[0], views[1]}, Nominal())) << "two photographs";
   auto standing = views;
   for (auto& view : standing) view.position_mm = 0.1 * static_cast<double>(&view - standing.data());

@@ -13,7 +13,10 @@ namespace {
 /// Phase noise assumed of one sample, stripes, until the residuals tell it; the robust loss starts to yield beyond
 /// three of them. Caps' rims differ by a hundredth of a stripe, ten times the noise elsewhere, and always to the same
 /// side.
-constexpr double kFinestSigma_stripes = 0.0003;
+constexpr double kFinestSigma_stripes = 0.0003, kCoarsestSigma_stripes = 0.01;
+/// What a law of the wrong shape leaves is one smooth function of the field. All samples together then count as this
+/// many independent ones, or they would outweigh every belief about the rig.
+constexpr double kTermsOfMisfit = 30;
 constexpr double kLoss = 3;
 constexpr int kBlock = 128;
 
@@ -99,12 +102,13 @@ double MedianOf(std::vector<double> values) {
 
 }  // namespace
 
-void RigFit::ChangeLaw(const ProjectorLaw& law, const RigParameters& nominal) {
+void RigFit::ChangeLaw(const ProjectorLaw& law, const RigParameters& nominal, const RigParameters& start) {
+  camera_covariance_ = Covariance().topLeftCorner(kBlockSizes[0], kBlockSizes[0]);
   law_ = law;
   nominal_ = nominal;
-  // What this law leaves is a matter of its shape, not of noise: it is fitted by nearly plain least squares.
-  sigma_stripes_ = coarsest_sigma_stripes_ = 0.3;
-  std::copy(std::begin(nominal.projector), std::end(nominal.projector), parameters_.projector);
+  parameters_ = start;
+  misfit_is_systematic_ = true;
+  LearnSigma();
 }
 
 void RigFit::SelectSamples(std::size_t most_per_view) {
@@ -137,20 +141,16 @@ std::vector<double> RigFit::DepthDifferences(const RigParameters& at, std::size_
   std::vector<double> differences(selected_[view].size());
   const RayOnReference<double> reference(shape_, at.pose, at.slide);
   constexpr double kStep = 1e-4;  // of the depth
-  ParallelBlocks(
-      static_cast<int>(differences.size()),
-      [&](int, int first, int last) {
-        for (int i = first; i < last; ++i) {
-          const OrderSample& sample = *selected_[view][static_cast<std::size_t>(i)];
-          double point[3];
-          reference(at.camera, sample.pixel, views_[view].position_mm, point);
-          const double behind[3] = {(1 + kStep) * point[0], (1 + kStep) * point[1], (1 + kStep) * point[2]};
-          const double here = OrderOf(law_, at.projector, point);
-          const double per_mm = (OrderOf(law_, at.projector, behind) - here) / (kStep * point[2]);
-          differences[static_cast<std::size_t>(i)] = (sample.order + offset - here) / per_mm;
-        }
-      },
-      kBlock);
+  // Asked tens of thousands of times for few samples: handing them to other threads would cost more than the work.
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    const OrderSample& sample = *selected_[view][i];
+    double point[3];
+    reference(at.camera, sample.pixel, views_[view].position_mm, point);
+    const double behind[3] = {(1 + kStep) * point[0], (1 + kStep) * point[1], (1 + kStep) * point[2]};
+    const double here = OrderOf(law_, at.projector, point);
+    const double per_mm = (OrderOf(law_, at.projector, behind) - here) / (kStep * point[2]);
+    differences[i] = (sample.order + offset - here) / per_mm;
+  }
   return differences;
 }
 
@@ -169,7 +169,8 @@ bool RigFit::Solve(Free free, bool offsets_free, int iterations) {
   options.max_num_iterations = iterations;
   options.num_threads = 1;  // sums in one order: the same bytes on every machine
   options.logging_type = ceres::SILENT;
-  options.function_tolerance = 1e-9;
+  // A systematic misfit makes Gauss-Newton's steps converge slowly, to where no digit of the result needs them.
+  options.function_tolerance = misfit_is_systematic_ ? 1e-6 : 1e-9;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   return summary.IsSolutionUsable();
@@ -181,7 +182,10 @@ void RigFit::LearnSigma() {
     for (const double difference : Differences(v)) residuals.push_back(std::abs(difference));
   }
   if (residuals.empty()) return;
-  sigma_stripes_ = std::clamp(1.4826 * MedianOf(std::move(residuals)), kFinestSigma_stripes, coarsest_sigma_stripes_);
+  const auto count = static_cast<double>(residuals.size());
+  const double sigma = 1.4826 * MedianOf(std::move(residuals));
+  sigma_stripes_ = misfit_is_systematic_ ? sigma * std::sqrt(std::max(1.0, count / kTermsOfMisfit))
+                                         : std::clamp(sigma, kFinestSigma_stripes, kCoarsestSigma_stripes);
 }
 
 double RigFit::ViewSpread(std::size_t view) const {
@@ -209,7 +213,9 @@ void RigFit::Build(ceres::Problem& problem, Free free, bool offsets_free) {
     if (!offsets_free) problem.SetParameterBlockConstant(&offsets_[v]);
   }
   AddPriors(Priors(nominal_, law_, true), nominal_, parameters_, problem);
-  if (free != Free::kAll) problem.SetParameterBlockConstant(p.camera);
+  // A law of the wrong shape is compared with the camera as it was found: left free, it would bend to hide the misfit
+  // (k2 = 2.5, focal lengths off by a fifth).
+  if (free != Free::kAll || misfit_is_systematic_) problem.SetParameterBlockConstant(p.camera);
   if (free == Free::kPose) {
     problem.SetParameterBlockConstant(p.slide);
     problem.SetParameterBlockConstant(p.projector);
@@ -240,7 +246,9 @@ Eigen::MatrixXd RigFit::Covariance() {
                         100 * static_cast<int>(sample->pixel.y() / cell_px));
     }
   }
-  return ClusterCovariance(jacobian, residuals, cluster);
+  Eigen::MatrixXd covariance = ClusterCovariance(jacobian, residuals, cluster);
+  if (misfit_is_systematic_) covariance.topLeftCorner(kBlockSizes[0], kBlockSizes[0]) = camera_covariance_;
+  return covariance;
 }
 
 }  // namespace striae::reconstruct::detail

@@ -22,11 +22,13 @@ class RigFit {
   [[nodiscard]] const RigParameters& parameters() const { return parameters_; }
   [[nodiscard]] const RigParameters& nominal() const { return nominal_; }
   [[nodiscard]] const ProjectorLaw& law() const { return law_; }
+  [[nodiscard]] bool misfit_is_systematic() const { return misfit_is_systematic_; }
   std::vector<double>& offsets() { return offsets_; }
   [[nodiscard]] const std::vector<double>& offsets() const { return offsets_; }
 
-  /// From here on another law; the parameters begin at its nominal values where the laws differ.
-  void ChangeLaw(const ProjectorLaw& law, const RigParameters& nominal);
+  /// From here on another law that does not have the rig's shape, from `start`; beliefs are about `nominal`. The camera
+  /// stays as it has been found. The misfit is systematic: plain least squares, its samples count as a few.
+  void ChangeLaw(const ProjectorLaw& law, const RigParameters& nominal, const RigParameters& start);
 
   /// Takes the samples that the present estimate sees on the usable part of the reference.
   void SelectSamples(std::size_t most_per_view);
@@ -66,7 +68,9 @@ class RigFit {
   ProjectorLaw law_;
   std::vector<double> offsets_;
   std::vector<std::vector<const OrderSample*>> selected_;
-  double sigma_stripes_ = 0.01, coarsest_sigma_stripes_ = 0.01;
+  double sigma_stripes_ = 0.01;
+  bool misfit_is_systematic_ = false;
+  Eigen::MatrixXd camera_covariance_;  ///< of the law before
 };
 
 /// Sandwich: inverse(J'J) (G / (G - free) sum of cluster scores squared + priors' part) inverse(J'J). The first

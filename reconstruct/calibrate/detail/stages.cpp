@@ -5,6 +5,7 @@
 namespace striae::reconstruct::detail {
 namespace {
 constexpr std::size_t kFew = 700, kMany = 2500, kMost = 6000;
+constexpr std::size_t kForMisfit = 1500;  ///< a misfit that is smooth over the field needs no more
 
 void Tell(const SolveOptions& options, double share, const char* what) {
   if (options.progress) options.progress(share, what);
@@ -43,7 +44,7 @@ Result<Solved> SolveByLeastSquares(RigFit& fit, const SolveOptions& options) {
 }
 
 bool RefineByLeastSquares(RigFit& fit, const SolveOptions& options) {
-  fit.SelectSamples(kMost);
+  fit.SelectSamples(fit.misfit_is_systematic() ? kForMisfit : kMost);
   for (int round = 0; round < 2; ++round) {
     Tell(options, 0.6 + 0.2 * round, "last weights");
     fit.LearnSigma();
