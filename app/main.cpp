@@ -1,22 +1,13 @@
-// striae: the program. Parses, runs the one command that was chosen, and turns its outcome into CONTRACT's exit codes.
-#include <exception>
-#include <iostream>
-
+// The whole program, which app/front.cpp starts. Parses, runs the one command that was chosen, and turns its outcome
+// into CONTRACT's exit codes.
 #include "app/catalogue.h"
+#include "app/exit.h"
 #include "app/study.h"
 #include "app/versions.h"
 
 namespace {
 
-using striae::ErrorCode;
 using striae::app::Context;
-
-constexpr int kDone = 0, kFailed = 1, kUsage = 2;
-
-int Report(const striae::Error& error) {
-  std::cerr << "striae: " << error.Describe() << " [" << ToString(error.code) << "]\n";
-  return error.code == ErrorCode::kUsage ? kUsage : kFailed;
-}
 
 void Describe(CLI::App& program, Context& context) {
   program.description(
@@ -38,21 +29,14 @@ int Run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return program.exit(e) == 0 ? kDone : kUsage;
+    return program.exit(e) == 0 ? striae::app::kExitDone : striae::app::kExitUsage;
   }
   const striae::Status status = context.action ? context.action(context) : striae::Status{};
-  return status ? kDone : Report(status.error());
+  return status ? striae::app::kExitDone : striae::app::ReportError(status.error());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return Run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    std::cerr << "striae: not enough memory; close other programs or use a smaller photograph\n";
-  } catch (const std::exception& e) {
-    std::cerr << "striae: internal error: " << e.what() << "; please report it with the command that you ran\n";
-  }
-  return kFailed;
+  return striae::app::Guarded([&] { return Run(argc, argv); });
 }

@@ -1,11 +1,8 @@
 // `striae reconstruct`: one photograph and a calibration -> a coloured surface.
 #include "reconstruct/reconstruct.h"
 
-#include <chrono>
 #include <functional>
 #include <optional>
-
-#include <fmt/format.h>
 
 #include "app/command.h"
 #include "app/io/files.h"
@@ -13,7 +10,7 @@
 #include "app/io/photograph.h"
 #include "app/io/preview.h"
 #include "app/io/surface_files.h"
-#include "core/provenance.h"
+#include "app/reconstructing.h"
 #include "reconstruct/white_balance.h"
 
 namespace striae::app {
@@ -36,17 +33,6 @@ struct Target {
   SurfaceFormat format = SurfaceFormat::kPly;
   bool decimated = false;
 };
-
-double Now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-Result<Calibration> ReadCalibration(const fs::path& path, Sha256& sha256) {
-  const auto bytes = ReadFile(path);
-  if (!bytes) return Fail(bytes.error());
-  sha256 = HashOf(*bytes);
-  auto calibration = CalibrationFromJson({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-  if (!calibration) return Fail(calibration.error(), path.string());
-  return calibration;
-}
 
 /// Where everything goes, checked before anything is computed.
 Result<std::vector<Target>> TargetsOf(const Options& options) {
@@ -125,31 +111,6 @@ Status WritePreviews(const fs::path& folder, const Photograph& photograph, const
   return {};
 }
 
-nlohmann::json ToJson(const reconstruct::Reconstruction& r) {
-  nlohmann::json document = {{"points", r.surface.size()},
-                             {"faces", r.surface.faces.size()},
-                             {"coverage", r.coverage},
-                             {"carrier_period_px", r.carrier_period_px},
-                             {"direction", ToString(r.direction)},
-                             {"regions", nlohmann::json::array()},
-                             {"warnings", r.warnings},
-                             {"seconds", nlohmann::json::object()}};
-  for (const auto& region : reconstruct::SummarisedRegions(r.regions)) {
-    nlohmann::json entry = {
-        {"points", region.points}, {"order_source", ToString(region.source)}, {"order_margin", region.margin}};
-    if (!region.warning.empty()) entry["warning"] = region.warning;
-    if (region.regions > 1) entry["regions"] = region.regions;
-    document["regions"].push_back(entry);
-  }
-  if (r.target) {
-    document["label"] = {{"marker_id", r.target->marker_id},
-                         {"distance_mm", r.target->middle_mm.z()},
-                         {"distance_uncertainty_mm", r.target->distance_sd_mm}};
-  }
-  for (const auto& [stage, seconds] : r.seconds) document["seconds"][stage] = seconds;
-  return document;
-}
-
 Status Reconstruct(Context& context, const Options& options) {
   const auto targets = TargetsOf(options);
   if (!targets) return Fail(targets.error());
@@ -164,7 +125,7 @@ Status Reconstruct(Context& context, const Options& options) {
   auto photograph = DecodePhotograph(*bytes);
   if (!photograph) return Fail(photograph.error(), options.image.string());
   const double decoded = Now();
-  const std::string photograph_sha256 = HashOf(*bytes).ToString();
+  const Sha256 photograph_sha256 = HashOf(*bytes);
 
   reconstruct::ReconstructOptions settings;
   if (options.distance_mm > 0) settings.distance_mm = options.distance_mm;
@@ -177,9 +138,7 @@ Status Reconstruct(Context& context, const Options& options) {
   auto result = reconstruct::Reconstruct(options.preview.empty() ? *std::move(photograph) : *photograph, *calibration,
                                          settings, Now);
   if (!result) return Fail(result.error(), options.image.string());
-  const std::string made_of[] = {"striae " + std::string(StriaeVersion()), "photograph sha256 " + photograph_sha256,
-                                 "calibration sha256 " + calibration_sha256.ToString()};
-  result->surface.comments.insert(result->surface.comments.begin(), std::begin(made_of), std::end(made_of));
+  SayWhatItIsMadeOf(photograph_sha256, calibration_sha256, result->surface);
   if (const auto gains = reconstruct::Balance(*balance, result->surface); !gains) return Fail(gains.error());
   const double reconstructed = Now();
   nlohmann::json files;
@@ -191,13 +150,7 @@ Status Reconstruct(Context& context, const Options& options) {
     Status written = WritePreviews(options.preview, *photograph, *calibration, result->surface);
     if (!written) return written;
   }
-  for (const std::string& warning : result->warnings) context.Note("warning: " + warning);
-  nlohmann::json document = ToJson(*result);
-  document.update(files);
-  context.Output(document,
-                 fmt::format("{}: {} points, {:.1f} % of the lit field, carrier {:.2f} px, stripe order from {}",
-                             options.out.string(), result->surface.size(), 100 * result->coverage,
-                             result->carrier_period_px, ToString(result->regions.front().source)));
+  Announce(context, *result, files, options.out);
   return {};
 }
 

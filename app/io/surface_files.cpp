@@ -5,8 +5,8 @@
 #include <system_error>
 
 #include "app/io/files.h"
+#include "app/io/ply_file.h"
 #include "core/obj.h"
-#include "core/ply.h"
 #include "core/stl.h"
 #include "dicom/thin.h"
 #include "reconstruct/decimate.h"
@@ -47,8 +47,7 @@ Status WriteAs(SurfaceFormat format, const Surface& surface, const fs::path& pat
   if (format == SurfaceFormat::kStl) {
     status = WriteFile(path, EncodeStl(surface, "Striae surface, mm, camera frame"), Kept::kSystem);
   } else {
-    status = WriteFile(
-        path, [&](const ByteSink& sink) { return EncodePly(surface, sink); }, Kept::kSystem);
+    status = WritePly(surface, path);
   }
   if (status) written.push_back(path);
   return status;
@@ -63,18 +62,6 @@ Result<SurfaceFormat> FormatOf(const fs::path& path, const std::string& name) {
   if (word == ".stl") return SurfaceFormat::kStl;
   if (word == ".obj") return SurfaceFormat::kObj;
   return Fail(ErrorCode::kUsage, "the format of " + path.string() + " is not known; end it in .ply, .stl or .obj");
-}
-
-Status CheckWritable(const fs::path& path) {
-  std::error_code code;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, code)) {
-    return Fail(ErrorCode::kIo, folder.string() + " is no folder to write into; check the folder and its name");
-  }
-  if (fs::is_directory(path, code)) {
-    return Fail(ErrorCode::kIo, path.string() + " is a folder; give the name of a file");
-  }
-  return {};
 }
 
 Result<std::vector<fs::path>> WriteSurface(const Surface& surface, const fs::path& path, SurfaceFormat format) {

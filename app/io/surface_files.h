@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/io/ply_file.h"
 #include "core/result.h"
 #include "core/surface.h"
 
@@ -16,9 +17,6 @@ enum class SurfaceFormat { kPly, kStl, kObj };
 
 /// By `name` ("ply", "stl", "obj") when not empty, else by the path's extension. kUsage for any other.
 Result<SurfaceFormat> FormatOf(const std::filesystem::path& path, const std::string& name);
-
-/// Before anything is computed: kIo when the folder is not there or the path is a folder.
-Status CheckWritable(const std::filesystem::path& path);
 
 /// Writes the surface, an OBJ with its material (.mtl) and texture (.jpg) beside it; says which files. Nothing of them
 /// stays when one cannot be written. kUsage for an STL or OBJ without faces.

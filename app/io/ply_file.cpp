@@ -1,0 +1,29 @@
+#include "app/io/ply_file.h"
+
+#include <system_error>
+
+#include "app/io/files.h"
+#include "core/ply.h"
+
+namespace striae::app {
+
+namespace fs = std::filesystem;
+
+Status CheckWritable(const fs::path& path) {
+  std::error_code code;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, code)) {
+    return Fail(ErrorCode::kIo, folder.string() + " is no folder to write into; check the folder and its name");
+  }
+  if (fs::is_directory(path, code)) {
+    return Fail(ErrorCode::kIo, path.string() + " is a folder; give the name of a file");
+  }
+  return {};
+}
+
+Status WritePly(const Surface& surface, const fs::path& path) {
+  return WriteFile(
+      path, [&](const ByteSink& sink) { return EncodePly(surface, sink); }, Kept::kSystem);
+}
+
+}  // namespace striae::app
