@@ -6,7 +6,9 @@
 #include "acquire/ingest.h"
 #include "acquire/metadata.h"
 #include "acquire/preflight.h"
+#include "acquire/sidecar.h"
 #include "app/io/files.h"
+#include "app/sidecars.h"
 #include "app/study.h"
 
 namespace striae::app {
@@ -109,6 +111,15 @@ Intake TakeIn(store::Record& record, const acquire::IngestItem& item, std::optio
   return intake;
 }
 
+void AddSidecar(store::Record& record, const fs::path& photograph, Intake& intake) {
+  if (!intake.capture) return;
+  if (const auto written = WriteSidecar(record, *intake.capture, photograph); written) {
+    intake.sidecar = acquire::SidecarPath(photograph);
+  } else {
+    intake.sidecar_error = written.error();
+  }
+}
+
 Result<acquire::CaptureBinding> BindTo(store::Record& record, const SessionId& session_id) {
   const auto session = record.SessionById(session_id);
   if (!session) return Fail(session.error());
@@ -126,8 +137,10 @@ std::string Describe(const Intake& intake) {
   if (!intake.capture) return text;
   text += " as " + intake.capture->id.ToString() + " (" + intake.capture->role.ToString() + "), preflight " +
           std::string(striae::ToString(acquire::Verdict(intake.capture->preflight)));
+  if (intake.sidecar_error) text += "\n  no sidecar: " + intake.sidecar_error->Describe();
   for (const auto& item : intake.capture->preflight) {
-    if (item.state == PreflightItem::State::kOk) continue;
+    // Said when it came; a second import does not say it again.
+    if (item.state == PreflightItem::State::kOk || intake.state == Intake::State::kAlreadyThere) continue;
     text += "\n  " + item.name + ": " + std::string(striae::ToString(item.state)) + ", " + item.found + " (expected " +
             item.expected + "); " + item.advice;
   }
@@ -141,6 +154,8 @@ nlohmann::json ToJson(const Intake& intake) {
                      {"message", intake.error->Describe()}};
   }
   if (!intake.quarantine.empty()) json["quarantine"] = intake.quarantine.string();
+  if (!intake.sidecar.empty()) json["sidecar"] = intake.sidecar.string();
+  if (intake.sidecar_error) json["sidecar_error"] = intake.sidecar_error->Describe();
   if (!intake.capture) return json;
   const Capture& capture = *intake.capture;
   json["capture"] = capture.id.ToString();
@@ -172,6 +187,12 @@ nlohmann::json ToJson(const SessionId& session, const std::vector<Intake>& intak
 
 Status OutcomeOf(const std::vector<Intake>& intakes) {
   const auto failed = std::find_if(intakes.begin(), intakes.end(), [](const Intake& i) { return !i.InRecord(); });
+  const auto bare =
+      std::find_if(intakes.begin(), intakes.end(), [](const Intake& i) { return i.sidecar_error.has_value(); });
+  if (failed == intakes.end() && bare != intakes.end()) {
+    return Fail(bare->sidecar_error->code, "all photographs are in the record, but a sidecar could not be written: " +
+                                               bare->sidecar_error->Describe());
+  }
   if (failed == intakes.end()) return {};
   const auto count = std::count_if(intakes.begin(), intakes.end(), [](const Intake& i) { return !i.InRecord(); });
   return Fail(failed->error ? failed->error->code : ErrorCode::kBadImage,

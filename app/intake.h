@@ -27,6 +27,8 @@ struct Intake {
   std::optional<Capture> capture;  ///< when added or already there
   std::optional<Error> error;      ///< when not
   std::filesystem::path quarantine;
+  std::filesystem::path sidecar;       ///< the XMP file beside it, when one was asked for
+  std::optional<Error> sidecar_error;  ///< it could not be written; the photograph is in the record all the same
   [[nodiscard]] bool InRecord() const { return state == State::kAdded || state == State::kAlreadyThere; }
 };
 
@@ -39,6 +41,9 @@ enum class Refused {
 /// Structure, metadata, preflight, record. `range` overrides the range of the device that the photograph's serial names
 /// (small when there is none). A quarantined photograph lies in <study>/quarantine/ beside a note that says why.
 Intake TakeIn(store::Record& record, const acquire::IngestItem& item, std::optional<RigRange> range, Refused refused);
+
+/// Writes the XMP sidecar of a photograph that is in the record; nothing for one that is not.
+void AddSidecar(store::Record& record, const std::filesystem::path& photograph, Intake& intake);
 
 /// The binding of a session, checked before any photograph: the session is open and its subject consents.
 Result<acquire::CaptureBinding> BindTo(store::Record& record, const SessionId& session);

@@ -168,7 +168,35 @@ void TakeRows(Record::Impl& into, Record::Impl& other, const Stamp& stamp, const
   change.Commit();
 }
 
+bool IsOlder(const std::filesystem::path& file) {
+  Database database(file, false);
+  const auto known = static_cast<std::int64_t>(detail::Migrations().size());
+  return database.Count("PRAGMA application_id") == detail::kApplicationId && database.UserVersion() >= 1 &&
+         database.UserVersion() < known;
+}
+
 }  // namespace
+
+Result<Record> OpenOther(const std::filesystem::path& folder, const std::filesystem::path& scratch,
+                         const Stamp& stamp) {
+  const std::filesystem::path file = folder / "study.db", copy = scratch / "study.db";
+  const auto copied = Guarded([&] {
+    if (!std::filesystem::exists(file) || !IsOlder(file)) return false;
+    Database(file, false).Run("VACUUM INTO ?", {copy.string()});
+    Database database(copy, false);
+    database.Configure();
+    database.Execute("PRAGMA journal_mode=WAL");
+    detail::BringUpToDate(database, copy, detail::Migrations());
+    return true;
+  });
+  if (!copied) return Fail(copied.error());
+  if (!*copied) return Record::Open(folder, stamp);
+  return Guarded([&] {
+    Database database(copy, false);
+    database.Configure();
+    return detail::Access::Make({folder, Unwrap(ObjectStore::Open(folder / "objects")), std::move(database)});
+  });
+}
 
 Result<MergeReport> Merge(Record& into, Record& other, const Progress& progress, const Stamp& stamp) {
   return Guarded([&] {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,10 @@ struct MergeReport {
 /// kRecordRefused for another study, for copies that wrote on under one origin (a folder copied by hand), and for two
 /// decisions that cannot both stand (one lock opened at both); kRecordDamaged when either copy does not pass its check.
 Result<MergeReport> Merge(Record& into, Record& other, const Progress& progress, const Stamp& stamp);
+
+/// The other copy, for Merge. One of an older format is copied to `scratch` (an empty folder) and brought up to date
+/// there, its objects are read where they are: the other copy itself is never changed. kNotFound where there is none,
+/// kRecordRefused for one of a newer format.
+Result<Record> OpenOther(const std::filesystem::path& folder, const std::filesystem::path& scratch, const Stamp& stamp);
 
 }  // namespace striae::store

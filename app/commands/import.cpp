@@ -7,6 +7,7 @@
 #include "acquire/folder.h"
 #include "app/command.h"
 #include "app/intake.h"
+#include "app/progress.h"
 #include "app/tagging.h"
 
 namespace striae::app {
@@ -15,6 +16,7 @@ namespace {
 struct Options {
   TagOptions tag;
   std::vector<std::filesystem::path> paths;
+  bool sidecar = false;
 };
 
 Status Import(Context& context, const Options& options) {
@@ -26,7 +28,9 @@ Status Import(Context& context, const Options& options) {
 
   acquire::FolderSource source(*files, binding);
   std::vector<Intake> intakes;
+  ProgressBar bar;
   for (const auto& file : *files) {
+    bar.Show(intakes.size(), files->size(), file.filename().string());
     const auto item = source.Next();
     if (item) {
       intakes.push_back(TakeIn(record, **item, range, Refused::kLeaveAtSource));
@@ -36,6 +40,8 @@ Status Import(Context& context, const Options& options) {
       unreadable.error = item.error();
       intakes.push_back(std::move(unreadable));
     }
+    if (options.sidecar) AddSidecar(record, file, intakes.back());
+    bar.Clear();
     context.Note(Describe(intakes.back()));
   }
   const auto document = ToJson(binding.session, intakes);
@@ -59,6 +65,8 @@ void AddCommand_import(CLI::App& root, Context& context) {
   command->add_option("paths", options->paths, "JPEG or NEF files, or folders with them")
       ->required()
       ->type_name("FILE|DIR");
+  command->add_flag("--sidecar", options->sidecar,
+                    "Write FILE.xmp beside each photograph: pseudonym, session and ids; the photograph stays as it is");
   OnRun(command, context, [options](Context& run) { return Import(run, *options); });
 }
 

@@ -1,16 +1,40 @@
 // `striae merge`: what another copy of the study has, taken into this one.
 #include "store/merge.h"
 
+#include <cstdlib>
+
 #include "app/progress.h"
 #include "app/study.h"
 
 namespace striae::app {
 namespace {
 
+/// A folder for what is needed during one command.
+class Scratch {
+ public:
+  Scratch() {
+    std::error_code code;
+    std::string name = (std::filesystem::temp_directory_path(code) / "striae-merge-XXXXXX").string();
+    if (::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 Status Merge(Context& run, const std::filesystem::path& folder) {
   auto record = OpenStudy(run);
   if (!record) return Fail(record.error());
-  auto other = store::Record::Open(folder, NewStamp());
+  const Scratch scratch;
+  if (scratch.path().empty()) return Fail(ErrorCode::kIo, "no temporary folder can be made; check TMPDIR and the disk");
+  auto other = store::OpenOther(folder, scratch.path(), NewStamp());
   if (!other) return Fail(other.error(), folder.string());
   ProgressBar bar;
   const auto report = store::Merge(*record, *other, bar.AsProgress(), NewStamp());

@@ -1,6 +1,7 @@
 // `striae status`: where the study stands and what is pending.
 #include "app/device_checks.h"
 #include "app/local_time.h"
+#include "app/quarantine.h"
 #include "app/study.h"
 #include "store/json.h"
 
@@ -100,7 +101,9 @@ Status Print(Context& run) {
   const auto pending = PendingOf(*record);
   if (!pending) return Fail(pending.error());
   document["pending"] = ToJson(*pending);
-  run.Output(document, TextOf(*failed) + TextOf(*study, *overview) + TextOf(*pending));
+  const auto quarantined = Quarantined(*record);
+  document["quarantine"] = ToJson(quarantined);
+  run.Output(document, TextOf(*failed) + TextOf(*study, *overview) + TextOf(*pending) + TextOf(quarantined));
   return {};
 }
 
