@@ -30,7 +30,7 @@ std::vector<Place> Places(const RigFit& fit, Free free) {
   if (free == Free::kPose) return places;
   for (const Prior& prior : Priors(fit.nominal(), fit.law(), true)) {
     if (prior.block == kCameraBlock && (free != Free::kAll || fit.misfit_is_systematic())) continue;
-    if (prior.block == kProjectorBlock && prior.index == 7) continue;  // the mean of the differences
+    if (prior.block == kProjectorBlock && prior.index == 7) continue;  // has a closed form
     // The angular law does not know the projector's place along the stripes.
     if (fit.law().kind == ProjectorModel::Kind::kAngular && prior.block == kProjectorBlock &&
         prior.index == 1 - fit.law().axis) {
@@ -43,8 +43,8 @@ std::vector<Place> Places(const RigFit& fit, Free free) {
 
 class Search {
  public:
-  Search(RigFit& fit, Free free, bool each_its_mean, const SolveOptions& options)
-      : fit_(fit), places_(Places(fit, free)), each_its_mean_(each_its_mean), options_(options) {}
+  Search(RigFit& fit, Free free, bool each_its_own, const SolveOptions& options)
+      : fit_(fit), places_(Places(fit, free)), each_its_own_(each_its_own), options_(options) {}
 
   /// False when NLopt failed or nothing was found. The fit has the best parameters.
   bool Run(int evaluations, double share_before, double share_after) {
@@ -72,38 +72,47 @@ class Search {
     return best_sd_ < kHopeless_mm;
   }
 
-  /// Puts the mean of the differences into the offsets (each photograph's, or the central order for all).
-  void AdoptMeans() {
-    double sum = 0, count = 0;
-    for (std::size_t v = 0; v < fit_.offsets().size(); ++v) {
-      const std::vector<double> d = fit_.Differences(v);
-      double own = 0;
-      for (const double value : d) own += value;
-      if (each_its_mean_ && !d.empty()) fit_.offsets()[v] -= own / static_cast<double>(d.size());
-      sum += own;
-      count += static_cast<double>(d.size());
+  /// Puts what the differences have in common into the offsets (each photograph's, or the central order for all).
+  void AdoptCommon() {
+    const auto common = Sum(fit_.parameters()).common;
+    if (each_its_own_) {
+      for (std::size_t v = 0; v < common.size(); ++v) fit_.offsets()[v] -= common[v];
+    } else {
+      fit_.parameters().projector[7] += common.front();
     }
-    if (!each_its_mean_ && count > 0) fit_.parameters().projector[7] += sum / count;
   }
 
  private:
+  struct Sums {
+    double sd_mm = 0;
+    std::vector<double> common;  ///< stripes; of each photograph, or of all
+  };
+  /// The sd in mm after the whole stripes' (or the central order's) best value, which has a closed form.
+  Sums Sum(const RigParameters& at) const {
+    Sums sums;
+    double squares = 0, count = 0, cross = 0, weight = 0;
+    for (std::size_t v = 0; v < fit_.offsets().size(); ++v) {
+      for (const auto& difference : fit_.DepthDifferences(at, v)) {
+        squares += difference.mm * difference.mm;
+        cross += difference.mm * difference.mm_per_stripe;
+        weight += difference.mm_per_stripe * difference.mm_per_stripe;
+        count += 1;
+      }
+      if (!each_its_own_ && v + 1 < fit_.offsets().size()) continue;
+      sums.common.push_back(weight > 0 ? cross / weight : 0);
+      squares -= weight > 0 ? cross * cross / weight : 0;
+      cross = weight = 0;
+    }
+    sums.sd_mm = std::sqrt(std::max(0.0, squares) / count);
+    return sums;
+  }
+
   double Objective(const std::vector<double>& x) {
     RigParameters trial = start_;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       BlockOf(trial, places_[i].block)[places_[i].index] += places_[i].unit * x[i];
     }
-    double squares = 0, sum = 0, count = 0;
-    for (std::size_t v = 0; v < fit_.offsets().size(); ++v) {
-      const std::vector<double> d = fit_.DepthDifferences(trial, v, fit_.offsets()[v]);
-      double own = 0;
-      for (const double value : d) own += value;
-      const double mean = each_its_mean_ && !d.empty() ? own / static_cast<double>(d.size()) : 0;
-      for (const double value : d) squares += (value - mean) * (value - mean);
-      sum += own;
-      count += static_cast<double>(d.size());
-    }
-    const double mean = each_its_mean_ ? 0 : sum / count;
-    const double sd = std::sqrt(std::max(0.0, squares / count - mean * mean));
+    const double sd = Sum(trial).sd_mm;
     if (++asked_ % 100 == 0 && options_.progress) {
       options_.progress(share_before_ + (share_after_ - share_before_) * asked_ / evaluations_,
                         "Powell's method, sd " + std::to_string(best_sd_) + " mm");
@@ -118,7 +127,7 @@ class Search {
 
   RigFit& fit_;
   std::vector<Place> places_;
-  bool each_its_mean_;
+  bool each_its_own_;
   const SolveOptions& options_;
   RigParameters start_, best_;
   double best_sd_ = kHopeless_mm;
@@ -145,7 +154,7 @@ Result<Solved> SolveByPowell(RigFit& fit, const SolveOptions& options) {
   for (const auto& stage : kStages) {
     Search search(fit, stage.free, true, options);
     if (!search.Run(stage.evaluations, share, stage.share)) return failed();
-    search.AdoptMeans();
+    search.AdoptCommon();
     fit.SelectSamples(kSamples);
     share = stage.share;
   }
@@ -170,7 +179,7 @@ bool RefineByPowell(RigFit& fit, const SolveOptions& options) {
   fit.SelectSamples(kSamples);
   Search search(fit, Free::kAll, false, options);
   if (!search.Run(kLastEvaluations, 0.5, 1)) return false;
-  search.AdoptMeans();
+  search.AdoptCommon();
   return true;
 }
 

@@ -137,8 +137,8 @@ std::vector<double> RigFit::Differences(std::size_t view) const {
   return differences;
 }
 
-std::vector<double> RigFit::DepthDifferences(const RigParameters& at, std::size_t view, double offset) const {
-  std::vector<double> differences(selected_[view].size());
+std::vector<RigFit::DepthDifference> RigFit::DepthDifferences(const RigParameters& at, std::size_t view) const {
+  std::vector<DepthDifference> differences(selected_[view].size());
   const RayOnReference<double> reference(shape_, at.pose, at.slide);
   constexpr double kStep = 1e-4;  // of the depth
   // Asked tens of thousands of times for few samples: handing them to other threads would cost more than the work.
@@ -149,7 +149,7 @@ std::vector<double> RigFit::DepthDifferences(const RigParameters& at, std::size_
     const double behind[3] = {(1 + kStep) * point[0], (1 + kStep) * point[1], (1 + kStep) * point[2]};
     const double here = OrderOf(law_, at.projector, point);
     const double per_mm = (OrderOf(law_, at.projector, behind) - here) / (kStep * point[2]);
-    differences[i] = (sample.order + offset - here) / per_mm;
+    differences[i] = {(sample.order + offsets_[view] - here) / per_mm, 1 / per_mm};
   }
   return differences;
 }

@@ -45,8 +45,11 @@ class RigFit {
 
   /// Measured minus predicted order of every selected sample of a view, stripes.
   [[nodiscard]] std::vector<double> Differences(std::size_t view) const;
-  /// The same as depth along the ray, mm (to first order: over the order's change with depth), offsets left out.
-  [[nodiscard]] std::vector<double> DepthDifferences(const RigParameters& at, std::size_t view, double offset) const;
+  /// The same as depth along the ray (to first order), with what a stripe is worth there.
+  struct DepthDifference {
+    double mm = 0, mm_per_stripe = 0;
+  };
+  [[nodiscard]] std::vector<DepthDifference> DepthDifferences(const RigParameters& at, std::size_t view) const;
 
   /// sd of Differences in one view and over all, stripes.
   [[nodiscard]] double ViewSpread(std::size_t view) const;

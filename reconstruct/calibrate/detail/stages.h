@@ -18,8 +18,8 @@ Result<Solved> SolveByLeastSquares(RigFit& fit, const SolveOptions& options);
 
 /// The paper's way: Powell's method without derivatives (Brent's PRAXIS, NLopt) on the sd of the depth differences
 /// between measured and reference surface, mm. Begins where SolveByLeastSquares begins; while the whole stripes are
-/// open, every photograph's differences count from their own mean. Ends when the sd changes by less than 1e-5 of
-/// itself or after a fixed number of evaluations: the same result in every run.
+/// open, every photograph has an offset of its own, which has a closed form. Ends when the sd changes by less than 1e-6
+/// of itself or after a fixed number of evaluations: the same result in every run.
 Result<Solved> SolveByPowell(RigFit& fit, const SolveOptions& options);
 
 /// After whole stripes are known: the same for another projector law, from its nominal values.
