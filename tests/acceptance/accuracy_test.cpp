@@ -40,9 +40,10 @@ struct Measured {
   std::string source;
 };
 
-Measured Measure(Trials& trials, const Calibration& calibration, const Body& body) {
+Measured Measure(Trials& trials, const Calibration& calibration, const Body& body,
+                 const reconstruct::ReconstructOptions& options = {}) {
   const Shot shot = Trials::Read(trials.Scene(body.scene, body.options), body.photograph);
-  auto result = reconstruct::Reconstruct(shot.photograph, calibration, {});
+  auto result = reconstruct::Reconstruct(shot.photograph, calibration, options);
   if (!result) throw std::runtime_error(body.scene + ": " + result.error().message);
   Measured measured{*std::move(result)};
   measured.figures = FiguresOf(PointErrors(measured.result.surface, shot.depth_mm));
@@ -79,8 +80,11 @@ void TryRig(Range range, std::uint32_t seed, double scale, const std::string& is
   EXPECT_LT(std::abs(plane.figures.mean), bars.distance);
   EXPECT_GT(plane.coverage, bars.coverage);
 
-  const Measured ball = Measure(trials, own, {"ball", "ball", {"--iso", iso, "--y-mm", "4"}});
+  // A ball shows no end of the grating, so it is told the distance as a tape finds it: 3 mm off, a fifth of a stripe.
   const double diameter = trials.small() ? 150 : 300;
+  reconstruct::ReconstructOptions taped;
+  taped.distance_mm = (trials.small() ? 1000 : 2000) + diameter / 8 - 3;
+  const Measured ball = Measure(trials, own, {"ball", "ball", {"--iso", iso, "--y-mm", "4"}}, taped);
   const auto form = reconstruct::CheckBall(ball.result.surface, diameter, {});
   ASSERT_TRUE(form) << form.error().message;
   Print("ball", ball, form->sd_mm);
@@ -93,15 +97,10 @@ void TryRig(Range range, std::uint32_t seed, double scale, const std::string& is
   EXPECT_LT(std::abs(body.figures.median), bars.distance);
 }
 
-TEST(AccuracyLong, OneMetreWithRigsUnknownToTheCode) {
-  TryRig(Range::kSmall, 1, 1, "400");
-  TryRig(Range::kSmall, 2, 1, "200");
-}
-
-TEST(AccuracyLong, TwoMetresWithRigsUnknownToTheCode) {
-  TryRig(Range::kLarge, 1, 1, "400");
-  TryRig(Range::kLarge, 2, 1, "500");
-}
+TEST(AccuracyLong, OneMetreWithARigUnknownToTheCode) { TryRig(Range::kSmall, 1, 1, "400"); }
+TEST(AccuracyLong, OneMetreWithAnotherRig) { TryRig(Range::kSmall, 2, 1, "200"); }
+TEST(AccuracyLong, TwoMetresWithARigUnknownToTheCode) { TryRig(Range::kLarge, 1, 1, "400"); }
+TEST(AccuracyLong, TwoMetresWithAnotherRig) { TryRig(Range::kLarge, 2, 1, "500"); }
 
 TEST(Accuracy, TwoMetresOnAQuarterOfTheSensor) { TryRig(Range::kLarge, 3, 0.25, "400"); }
 

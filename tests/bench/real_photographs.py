@@ -35,7 +35,8 @@ def depth_of(order, calibration):
 
 def figures(name, errors, share):
     e = np.abs(errors)
-    print(f"  {name:42} median {np.median(e):7.3f}  90th percentile {np.percentile(e, 90):8.3f}  on {100 * share:5.1f} %")
+    print(f"  {name:42} median {np.median(e):7.4f}  90th percentile {np.percentile(e, 90):8.3f}  "
+          f"rms {np.sqrt(np.mean(e**2)):7.3f}  on {100 * share:5.1f} %")
 
 
 def david(striae, data):
@@ -84,18 +85,19 @@ def lens(striae, data):
     peer, _ = plain_phase(frames[0].T, report["carrier_period_px"])
     peer = np.where(np.ma.getmaskarray(peer), np.nan, peer.filled(0)).T
 
-    def errors(phase):  # up to one constant
+    def errors(phase, where):
+        """Up to one constant, which is the median's on the pixels `where`."""
         turned = np.exp(1j * (phase - truth))
-        valid = np.isfinite(phase)
-        return np.angle(turned * np.conj(turned[valid].mean()))
+        turned *= np.conj(turned[where].mean() / abs(turned[where].mean()))
+        return np.angle(turned * np.exp(-1j * np.median(np.angle(turned[where]))))
 
-    a, b = errors(ours), errors(peer)
+    both = np.isfinite(ours) & np.isfinite(peer)
+    a, b = errors(ours, np.isfinite(ours)), errors(peer, np.isfinite(peer))
     print("lens_fringes, phase of one frame against the four-step phase, rad:")
-    both = np.isfinite(a) & np.isfinite(b)
     figures("Striae", a[np.isfinite(a)], np.isfinite(a).mean())
     figures("numpy FTP + scikit-image", b[np.isfinite(b)], np.isfinite(b).mean())
-    figures("Striae, pixels of both", a[both], both.mean())
-    figures("numpy FTP + scikit-image, pixels of both", b[both], both.mean())
+    figures("Striae, pixels of both", errors(ours, both)[both], both.mean())
+    figures("numpy FTP + scikit-image, pixels of both", errors(peer, both)[both], both.mean())
 
 
 def main():
