@@ -270,7 +270,12 @@ void RowMerger::Relink(const std::string& table) {
   std::string next = "SELECT id FROM " + table;
   next += " WHERE supersedes = ?";
   for (auto& [before, all] : siblings) {
-    if (all.size() < 2) continue;
+    if (all.size() < 2) {
+      // It made way for a row that has since been placed elsewhere: its own place is free again.
+      const std::string& id = all.front().second;
+      if (Current(table, id)["supersedes"] != before) database_.Run(set, {before, id});
+      continue;
+    }
     std::sort(all.begin(), all.end());
     for (const auto& [birth, id] : all) database_.Run(set, {Value{}, id});
     std::string tail = before;
