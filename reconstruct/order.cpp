@@ -11,24 +11,23 @@
 namespace striae::reconstruct {
 namespace {
 
-constexpr int kMostAnchored = 64;          ///< regions that are asked for evidence of their own
-constexpr double kLeastMargin = 0.4;       ///< below it a region without an anchor of its own is left out
-constexpr double kNoteworthyNecks = 0.03;  ///< share of a region behind necks
+constexpr int kMostAnchored = 64;      ///< regions that are asked for evidence of their own
+constexpr double kLeastMargin = 0.4;   ///< below it a region without an anchor of its own is left out
+constexpr double kPartedMargin = 0.5;  ///< at most, of a part that follows its sheet
 
 /// The regions' orders while they are being settled.
 class Resolver {
  public:
-  Resolver(const PhaseResult& phase, const Calibration& calibration, double distance_mm)
+  Resolver(const PhaseResult& phase, const Calibration& calibration, double distance_mm, std::vector<int> sheets)
       : scene_{phase, calibration, StripeOptics(calibration)},
         distance_mm_(distance_mm),
+        sheets_(std::move(sheets)),
         count_(phase.unwrapped.regions),
         asked_(std::min(count_, kMostAnchored)),
         orders_(static_cast<std::size_t>(count_)),
         settled_(static_cast<std::size_t>(count_), false),
         depth_(scene_) {
-    for (const int region : phase.unwrapped.region.pixels()) {
-      if (region >= 0) ++orders_[static_cast<std::size_t>(region)].points;
-    }
+    for (std::size_t r = 0; r < orders_.size(); ++r) orders_[r].points = phase.unwrapped.pixels.at(r);
     samples_ = detail::SampleRegions(scene_, asked_);
   }
 
@@ -43,23 +42,14 @@ class Resolver {
     }
   }
 
-  /// Along bridges of good pixels from what is settled, the widest first, until nothing more is reached.
-  void CrossBridges() {
-    auto bridges = detail::FindBridges(scene_.phase, asked_);
-    std::stable_sort(bridges.begin(), bridges.end(), [](const auto& a, const auto& b) { return a.margin > b.margin; });
-    for (bool any = true; any;) {
-      any = false;
-      for (const detail::Bridge& bridge : bridges) any = Cross(bridge) || any;
-    }
-  }
-
   /// What has no anchor, always with a warning: the largest region from the distance when nothing is settled, the
   /// others beside what is.
   void Continue() {
     for (int r = 0; r < count_; ++r) {
       if (settled_[static_cast<std::size_t>(r)]) continue;
       std::optional<RegionOrder> found;
-      if (r > 0) found = depth_.Continued(r);
+      if (r > 0) found = FromSheet(r);
+      if (r > 0 && !found) found = depth_.Continued(r);
       if (!found && r < asked_)
         found = detail::FromDistance(scene_, samples_[static_cast<std::size_t>(r)], distance_mm_);
       if (r > 0 && (!found || found->margin < kLeastMargin)) {
@@ -70,18 +60,15 @@ class Resolver {
     }
   }
 
-  /// Large regions whose parts unwrapping may have joined across a step.
-  void DoubtNecks() {
-    const std::size_t least = scene_.phase.mask.size() / 500;
-    for (int r = 0; r < asked_; ++r) {
-      RegionOrder& order = orders_[static_cast<std::size_t>(r)];
-      if (order.points < least || !order.warning.empty()) continue;
-      const double share = detail::ShareBehindNecks(scene_.phase, r);
-      if (share < kNoteworthyNecks) continue;
-      order.warning =
-          std::to_string(std::lround(100 * share)) +
-          " % of it hang on the rest by narrow necks only and may be off by whole stripes; look for steps in "
-          "depth that should not be there";
+  /// Regions with a shadow inside that something before them may cast.
+  void DoubtShadows() {
+    constexpr int kFewestLines = 8;
+    const auto lines = detail::ShadowedLines(scene_.phase, asked_);
+    for (std::size_t r = 0; r < lines.size(); ++r) {
+      if (lines[r] < kFewestLines || !orders_[r].warning.empty()) continue;
+      orders_[r].warning =
+          "a shadow as wide as a stripe or more falls on it: what casts it, and is joined to it, may be off by whole "
+          "stripes; look for steps in depth that should not be there";
     }
   }
 
@@ -96,34 +83,30 @@ class Resolver {
     if (orders_[i].source != OrderSource::kNone) depth_.Add(region, orders_[i].offset);
   }
 
-  bool Cross(const detail::Bridge& bridge) {
-    const auto from = static_cast<std::size_t>(bridge.from), to = static_cast<std::size_t>(bridge.to);
-    if (settled_[from] == settled_[to]) {
-      if (settled_[from] && orders_[from].offset + bridge.step != orders_[to].offset) Doubt(from, to);
-      return false;
-    }
-    const bool forward = settled_[from];
-    const RegionOrder& known = orders_[forward ? from : to];
-    RegionOrder found;
-    found.source = OrderSource::kBridge;
-    found.offset = known.offset + (forward ? bridge.step : -bridge.step);
-    found.margin = std::min(known.margin, bridge.margin);
-    found.warning = known.warning;
-    Settle(forward ? bridge.to : bridge.from, std::move(found));
-    return true;
+  [[nodiscard]] bool OneSheet(std::size_t a, std::size_t b) const {
+    return a < sheets_.size() && b < sheets_.size() && sheets_[a] == sheets_[b];
   }
 
-  /// Two anchored regions that good pixels join, and whose whole numbers do not continue each other.
-  void Doubt(std::size_t a, std::size_t b) {
-    for (const std::size_t i : {a, b}) {
-      if (!orders_[i].warning.empty()) continue;
-      orders_[i].margin = 0;
-      orders_[i].warning = "its whole stripe number does not continue that of the region it is joined to";
+  /// The number of the largest settled region that it was one sheet with.
+  [[nodiscard]] std::optional<RegionOrder> FromSheet(int region) const {
+    const auto own = static_cast<std::size_t>(region);
+    for (std::size_t r = 0; r < orders_.size(); ++r) {
+      if (r == own || !settled_[r] || !OneSheet(r, own) || orders_[r].source == OrderSource::kNone) continue;
+      RegionOrder found;
+      found.source = OrderSource::kBridge;
+      found.offset = orders_[r].offset;
+      found.margin = std::min(kPartedMargin, orders_[r].margin);
+      found.warning =
+          "the stripes are dimmed all along where it joins the rest, or it hangs on it by a narrow neck: its whole "
+          "stripe number goes on from there, and a step of whole stripes in depth would go unseen";
+      return found;
     }
+    return std::nullopt;
   }
 
   detail::OrderScene scene_;
   double distance_mm_;
+  std::vector<int> sheets_;
   int count_, asked_;
   std::vector<RegionOrder> orders_;
   std::vector<bool> settled_;
@@ -150,12 +133,11 @@ std::string_view ToString(OrderSource source) {
 }
 
 std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibration& calibration, double distance_mm,
-                                      const std::optional<TargetSighting>& target) {
-  Resolver resolver(phase, calibration, distance_mm);
+                                      const std::optional<TargetSighting>& target, const std::vector<int>& sheets) {
+  Resolver resolver(phase, calibration, distance_mm, sheets);
   resolver.Anchor(target);
-  resolver.CrossBridges();
   resolver.Continue();
-  resolver.DoubtNecks();
+  resolver.DoubtShadows();
   return resolver.Take();
 }
 

@@ -18,7 +18,10 @@ constexpr int kFewestLines = 40;            ///< of about a thousand over the pi
 constexpr double kLargestModulation = 0.3;  ///< beyond the edge, against the plateau's
 constexpr double kGhost = 0.004;            ///< of the plateau: amplitude that the window's side lobes leave
 constexpr double kLeastAmbient = 0.006;     ///< background beyond the edge, against the plateau's
-constexpr double kLargestBeyond = 0.03;     ///< share of the region's lines on which it goes on past its edge
+/// Where what only the room lights ends in turn, the window makes a ghost of the carrier out of that step: at most the
+/// integral of the Hann window over f / (pi f) from 0.3 to 1.7 of the carrier, a quarter of the step's height.
+constexpr double kOutline = 0.3;
+constexpr double kLargestBeyond = 0.03;  ///< share of the region's lines on which it goes on past its edge
 
 /// What one line shows at one end of a region.
 struct LineEnd {
@@ -152,7 +155,8 @@ class EndReader {
     if (modulation > kLargestModulation && out.amplitude > kGhost * plateau) return false;
     const int step = std::max(1, static_cast<int>(period_ / 2));
     for (int at = crossing - inwards * static_cast<int>(3 * period_); lines_.Has(at); at -= inwards * step) {
-      if (lines_.At(phase_.mask, line, at) != 0) return false;
+      if (lines_.At(phase_.mask, line, at) == 0) continue;
+      if (lines_.At(phase_.amplitude, line, at) > kOutline * out.background) return false;
     }
     return true;
   }

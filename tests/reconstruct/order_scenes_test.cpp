@@ -23,6 +23,7 @@ struct Judged {
   std::size_t points = 0;
   int wrong_by = 0;       ///< whole stripes, of most of its pixels
   double consistent = 0;  ///< share of its pixels with that whole number
+  double wrong = 0;       ///< share of its pixels that the order found is wrong for
   [[nodiscard]] bool silent() const { return order.warning.empty() && order.source != OrderSource::kNone; }
 };
 
@@ -55,8 +56,10 @@ std::vector<Judged> Judge(const OrderScene& scene, const PhaseResult& phase, con
     std::nth_element(of.begin(), of.begin() + static_cast<long>(of.size() / 2), of.end());
     const int truth = of[of.size() / 2];
     const auto same = std::count(of.begin(), of.end(), truth);
-    judged.push_back({orders[r], of.size() * kStep * kStep, orders[r].offset - truth,
-                      static_cast<double>(same) / static_cast<double>(of.size())});
+    judged.push_back(
+        {orders[r], of.size() * kStep * kStep, orders[r].offset - truth,
+         static_cast<double>(same) / static_cast<double>(of.size()),
+         1 - static_cast<double>(std::count(of.begin(), of.end(), orders[r].offset)) / static_cast<double>(of.size())});
   }
   return judged;
 }
@@ -71,20 +74,36 @@ void Print(const OrderScene& scene, std::uint32_t seed, const Judged& j) {
             << j.consistent << "  " << verdict << "\n";
 }
 
+/// Share of the points that may be wrong without a warning: the seam between two parts is known to a sixth of a stripe,
+/// which along an arm across a body comes to a quarter of a percent. Known limits: plates level with one another a
+/// whole stripe apart have neither a dark outline nor a bent order, and slivers of a black bar beside a body hang on it
+/// in the noise. There the share is only kept from growing.
+double MostWrongSilent(const std::string& kind) {
+  if (kind == "steps") return 0.08;
+  return kind == "dark bar" || kind == "bar, near" ? 0.04 : 0.005;
+}
+
 /// Judges every region with more than half a percent of the scene's points.
 void RunScene(const std::string& kind, std::uint32_t seed, double sensor, bool print, Tally& tally) {
   const OrderScene scene = MakeOrderScene(kind, seed, sensor);
   PhaseOptions options;
   options.direction = scene.scene.rig.direction;
-  const auto phase = MeasurePhase(PhotographOf(scene.scene), options);
+  auto phase = MeasurePhase(PhotographOf(scene.scene), options);
   ++tally.scenes;
   if (!phase) {
     std::cout << kind << " " << seed << ": " << phase.error().message << "\n";
     return;
   }
-  const auto judged = Judge(scene, *phase, ResolveOrder(*phase, scene.scene.rig, scene.distance_mm));
+  const auto sheets = SplitDoubtfulRegions(*phase);
+  const auto judged =
+      Judge(scene, *phase, ResolveOrder(*phase, scene.scene.rig, scene.distance_mm, std::nullopt, sheets));
   std::size_t all = 0;
-  for (const Judged& j : judged) all += j.points;
+  double wrong_points = 0;
+  for (const Judged& j : judged) {
+    all += j.points;
+    if (j.silent()) wrong_points += j.wrong * static_cast<double>(j.points);
+  }
+  EXPECT_LE(wrong_points, MostWrongSilent(kind) * static_cast<double>(all)) << kind << ", seed " << seed;
   bool first = true;
   for (const Judged& j : judged) {
     if (static_cast<double>(j.points) < 0.005 * static_cast<double>(all)) continue;

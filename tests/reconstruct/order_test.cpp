@@ -1,5 +1,6 @@
 #include "reconstruct/order.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -55,6 +56,55 @@ TEST(ResolveOrder, WithoutStripeCountTheDistanceDecidesAndSaysHowSure) {
   const auto orders = ResolveOrder(phase, scene.rig, 1020);
   EXPECT_EQ(orders.front().source, OrderSource::kDistance);
   EXPECT_LT(orders.front().margin, 1);
+}
+
+TEST(SplitDoubtfulRegions, LeavesALimbWhole) {
+  const FringeScene scene{SmallQuarterRig(), UprightLimb(1000, 60)};
+  PhaseResult phase = PhaseOf(scene);
+  const auto before = phase.unwrapped.region.pixels();
+  const auto sheets = SplitDoubtfulRegions(phase);
+  EXPECT_EQ(static_cast<int>(sheets.size()), phase.unwrapped.regions);
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), phase.unwrapped.region.pixels().begin()));
+}
+
+/// Two parts of one sheet: the stripes of a wide plane, dimmed along a band as along an arm's outline.
+PhaseResult Dimmed(double amplitude_left, int from_col) {
+  PhaseResult phase = PhaseOf({SmallQuarterRig(), Plane(1000, 0, 0, 400, 300)});
+  const int period = static_cast<int>(phase.carrier_period_px), middle = phase.mask.height() / 2;
+  for (int row = middle - period / 3; row <= middle + period / 3; ++row) {
+    for (int col = from_col; col < phase.mask.width(); ++col)
+      phase.amplitude(col, row) *= static_cast<float>(amplitude_left);
+  }
+  return phase;
+}
+
+TEST(SplitDoubtfulRegions, PartsARegionAlongALineOfDimmedStripes) {
+  PhaseResult phase = Dimmed(0.6, 0);
+  ASSERT_EQ(phase.unwrapped.regions, 1);
+  const ImageF order = phase.unwrapped.phase;
+  const auto sheets = SplitDoubtfulRegions(phase);
+  ASSERT_EQ(sheets, (std::vector<int>{0, 0}));
+  ASSERT_EQ(phase.unwrapped.pixels.size(), 2U);
+  EXPECT_GE(phase.unwrapped.pixels[0], phase.unwrapped.pixels[1]);
+  const int col = phase.mask.width() / 2, quarter = phase.mask.height() / 4;
+  EXPECT_NE(phase.unwrapped.region(col, quarter), phase.unwrapped.region(col, 3 * quarter));
+  EXPECT_EQ(phase.unwrapped.phase(col, quarter), order(col, quarter));
+  std::vector<std::size_t> counted(2, 0);
+  for (const int region : phase.unwrapped.region.pixels()) {
+    if (region >= 0) ++counted.at(static_cast<std::size_t>(region));
+  }
+  EXPECT_EQ(counted, phase.unwrapped.pixels);
+}
+
+TEST(SplitDoubtfulRegions, LeavesARegionWholeThatIsJoinedBesideTheDimmedLine) {
+  PhaseResult phase = Dimmed(0.6, 0);
+  PhaseResult open = Dimmed(0.6, phase.mask.width() / 3);
+  EXPECT_EQ(SplitDoubtfulRegions(open).size(), 1U);
+}
+
+TEST(SplitDoubtfulRegions, DoesNotTakeAFaintLineForAJoint) {
+  PhaseResult phase = Dimmed(0.95, 0);
+  EXPECT_EQ(SplitDoubtfulRegions(phase).size(), 1U);
 }
 
 }  // namespace
