@@ -1,6 +1,7 @@
 #include "store/detail/database.h"
 
 #include <new>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 #include <sqlite3.h>
@@ -49,7 +50,9 @@ const char* AdviceFor(int primary) {
 }
 
 Error FromSqlite(const SQLite::Exception& exception) {
-  const int primary = exception.getErrorCode() & 0xff;
+  int primary = exception.getErrorCode() & 0xff;
+  // Every query fits the format: where a table or column is not there, the file's own description is damaged.
+  if (primary == SQLITE_ERROR && std::string_view(exception.what()).starts_with("no such ")) primary = SQLITE_CORRUPT;
   return {CodeOf(primary), std::string("study.db: ") + exception.what() + AdviceFor(primary), {}};
 }
 

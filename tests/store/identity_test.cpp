@@ -3,6 +3,9 @@
 
 #include <filesystem>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include "store/check.h"
 #include "tests/store/findings.h"
 #include "tests/support/files.h"
@@ -125,6 +128,83 @@ TEST_F(IdentityFile, HoldsManyPeople) {
   ASSERT_THAT(read, IsOk());
   EXPECT_EQ(read->size(), 2000U);
   EXPECT_EQ(read->back().name, "Name1999");
+}
+
+/// A study whose identities are changed as the command does it.
+class StudyIdentities : public ::testing::Test {
+ protected:
+  Status Put(store::Record& record, const std::string& pseudonym, const std::string& name) const {
+    const auto edit = [&](std::vector<Identity>& all) -> Status {
+      std::erase_if(all, [&](const Identity& known) { return known.pseudonym == pseudonym; });
+      all.push_back(Person(pseudonym, name));
+      return {};
+    };
+    return store::ChangeIdentities(record, {kPassphrase, {}, edit, Random(7), kQuick}, NextStamp());
+  }
+  [[nodiscard]] fs::path file() const { return study_.folder() / store::kIdentityName; }
+  SmallStudy study_;
+};
+
+TEST_F(StudyIdentities, ChangedLeaveARowWithoutAnyContent) {
+  const auto before = study_->Head()->sequence;
+  ASSERT_THAT(Put(study_.record(), "S001", "Test^Subject"), IsOk());
+  EXPECT_EQ(study_->Head()->sequence, before + 1);
+  EXPECT_EQ(RawSql(study_.database(),
+                   "SELECT 1 / count(*) FROM audit WHERE action = 'note' AND entity = 'identity.striae' AND field = "
+                   "'set' AND user = 'coordinator'"),
+            "");
+  EXPECT_EQ(RawSql(study_.database(), "SELECT 1 / (count(*) = 0) FROM audit WHERE new_value LIKE '%Subject%'"), "");
+  const store::IdentityChange passphrase{kPassphrase, "another four words",
+                                         [](std::vector<Identity>&) { return Status(); }, Random(8), kQuick};
+  ASSERT_THAT(store::ChangeIdentities(study_.record(), passphrase, NextStamp()), IsOk());
+  EXPECT_EQ(RawSql(study_.database(),
+                   "SELECT 1 / count(*) FROM audit WHERE entity = 'identity.striae' AND field = 'passphrase'"),
+            "");
+  EXPECT_EQ(store::ReadIdentities(file(), "another four words")->size(), 1U);
+  EXPECT_TRUE(study_->Check()->findings.empty());
+}
+
+TEST_F(StudyIdentities, ThatAreRefusedLeaveNeitherARowNorAChange) {
+  ASSERT_THAT(Put(study_.record(), "S001", "Test^Subject"), IsOk());
+  const auto before = ReadBytes(file());
+  const auto head = study_->Head()->sequence;
+  const store::IdentityChange wrong{
+      "not the passphrase", {}, [](std::vector<Identity>&) { return Status(); }, Random(9), kQuick};
+  EXPECT_THAT(store::ChangeIdentities(study_.record(), wrong, NextStamp()),
+              FailsWith(ErrorCode::kRecordRefused, "passphrase does not open"));
+  const store::IdentityChange refused{kPassphrase,
+                                      {},
+                                      [](std::vector<Identity>&) -> Status { return Fail(ErrorCode::kUsage, "no"); },
+                                      Random(9),
+                                      kQuick};
+  EXPECT_THAT(store::ChangeIdentities(study_.record(), refused, NextStamp()), FailsWith(ErrorCode::kUsage, "no"));
+  EXPECT_EQ(ReadBytes(file()), before);
+  EXPECT_EQ(study_->Head()->sequence, head);
+}
+
+TEST_F(StudyIdentities, SetByFourProgramsAtOnceAreAllThere) {
+  study_.Close();
+  constexpr int kPrograms = 4, kEach = 8;
+  std::vector<pid_t> children;
+  for (int program = 0; program < kPrograms; ++program) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      for (int used = 0; used < program * kEach; ++used) CountedUuid();  // every program names other people
+      auto record = store::Record::Open(study_.folder(), NextStamp());
+      bool good = record.has_value();
+      for (int i = 0; good && i < kEach; ++i) {
+        good = Put(*record, "P" + std::to_string(program * 100 + i), "Name").has_value();
+      }
+      ::_exit(good ? 0 : 1);
+    }
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(store::ReadIdentities(file(), kPassphrase)->size(), static_cast<std::size_t>(kPrograms * kEach));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "store/detail/database.h"
 #include "store/detail/schema.h"
 #include "tests/store/findings.h"
+#include "tests/support/files.h"
 
 namespace striae::testing {
 namespace {
@@ -201,6 +202,60 @@ TEST(Merge, APhotographProcessedAtBothHasOneOutcomeInForce) {
   auto merged = sites.Open("a");
   EXPECT_EQ(merged.Outcomes(sites.capture_.id)->size(), 4U);
   EXPECT_EQ(merged.Results()->size(), 2U) << "the two numbers of the last report";
+}
+
+TEST(Merge, ADeviceEnteredAtBothKeepsBothCalibrationsAndAsks) {
+  Sites sites;
+  for (const char* name : {"a", "b"}) {
+    auto copy = sites.Open(name);
+    ASSERT_THAT(copy.AddDevice({CountedId<DeviceId>(), "6123456", RigRange::kSmall, "NIKON D90", name}, NextStamp()),
+                IsOk());
+  }
+  EXPECT_EQ(sites.BothWays(), "");
+  auto merged = sites.Open("a");
+  const auto devices = merged.Devices();
+  ASSERT_EQ(devices->size(), 2U);
+  EXPECT_EQ(merged.DeviceBySerial("6123456")->lens, "a") << "entered first, it keeps the serial of the photographs";
+  EXPECT_EQ(devices->back().serial.substr(0, 8), "6123456.");
+  EXPECT_EQ(RawSql(sites.At("a") / "study.db", "SELECT 1 / (count(*) = 1) FROM data_query_now WHERE state = 'open'"),
+            "");
+  EXPECT_TRUE(merged.Check()->findings.empty());
+}
+
+/// What lies in a folder, byte for byte; SQLite's shared memory is no content.
+std::map<std::string, std::vector<std::uint8_t>> FilesOf(const fs::path& folder) {
+  std::map<std::string, std::vector<std::uint8_t>> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).string();
+    if (entry.is_regular_file() && !name.ends_with("-shm") && !name.ends_with("-wal")) files[name] = ReadBytes(entry);
+  }
+  return files;
+}
+
+TEST(Merge, TakesAnOlderCopyWithoutChangingIt) {
+  Sites sites;
+  {
+    auto b = sites.Open("b");
+    Enrol(b, "S003");
+    ASSERT_THAT(b.AddCapture(SmallStudy::Photograph(sites.session_), Bytes("taken at b"), NextStamp()), IsOk());
+  }
+  ASSERT_EQ(store::detail::Migrations().size(), 8U)
+      << "there is a newer format: take back all after 7 in the next line";
+  ASSERT_EQ(RawSql(sites.At("b") / "study.db",
+                   "DROP INDEX audit_by_entity; DROP INDEX session_visit; DROP INDEX capture_role; PRAGMA "
+                   "user_version=7; PRAGMA wal_checkpoint(TRUNCATE)"),
+            "");
+  const auto before = FilesOf(sites.At("b"));
+  const TempDir scratch;
+  {
+    auto a = sites.Open("a");
+    auto other = store::OpenOther(sites.At("b"), scratch.path(), NextStamp());
+    ASSERT_THAT(other, IsOk());
+    ASSERT_THAT(store::Merge(a, *other, {}, NextStamp()), IsOk());
+    EXPECT_THAT(a.SubjectByPseudonym("S003"), IsOk());
+    EXPECT_TRUE(a.Check()->Passed());
+  }
+  EXPECT_EQ(FilesOf(sites.At("b")), before);
 }
 
 TEST(Merge, RefusesAnotherStudyAndAFolderThatWasCopiedByHand) {
