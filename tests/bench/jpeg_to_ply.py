@@ -29,7 +29,7 @@ def main():
         skip("no scikit-image (Debian: python3-skimage)")
     peer = os.path.join(os.path.dirname(os.path.abspath(__file__)), "numpy_phase.py")
     rows = {"Striae, JPEG to PLY with faces": [], "numpy + scikit-image, phase, plain": [],
-            "numpy + scikit-image, phase, tuned": [], "decode + write alone (process)": []}
+            "numpy + scikit-image, phase, tuned": []}
     inner = []
     with tempfile.TemporaryDirectory() as folder:
         ply = os.path.join(folder, "surface.ply")
