@@ -11,6 +11,8 @@
 #include "app/io/difference_map.h"
 #include "app/progress.h"
 #include "core/hex.h"
+#include "core/study.h"
+#include "reconstruct/calibrate/board.h"
 #include "reconstruct/calibrate/photographs.h"
 #include "reconstruct/calibrate/steps.h"
 #include "reconstruct/order.h"
@@ -19,6 +21,8 @@ namespace striae::app {
 
 struct CalibratingOptions {
   std::filesystem::path reference, steps, out, map;
+  std::vector<std::filesystem::path> board;  ///< photographs of the printed board, instead of reference and steps
+  RigRange range = RigRange::kSmall;         ///< which board was printed
   int stripes = 0;
   double period_um = 0, distance_mm = 0;
   double sensor_width_mm = 23.6;   ///< the D90's
@@ -74,6 +78,13 @@ Result<std::vector<reconstruct::CalibrationStep>> ReadSteps(const std::filesyste
 /// Phase and samples of every photograph. Refuses at once a photograph that cannot belong to the others or to the mesh.
 Status MeasureAll(const std::vector<reconstruct::CalibrationStep>& steps, const CalibratingOptions& options,
                   const reconstruct::ReferenceShape& shape, ProgressBar& bar, Calibrating& work);
+/// The rig from photographs of the printed board, with the report of --json less its time. Writes nothing.
+struct BoardCalibrated {
+  reconstruct::BoardFit fit;
+  nlohmann::json report;
+};
+Result<BoardCalibrated> CalibrateWithBoard(const CalibratingOptions& options);
+
 /// Reconstructs every photograph with the calibration found and compares it with the posed reference.
 Status Evaluate(const reconstruct::ReferenceShape& shape, const reconstruct::CalibrationFit& fit, ProgressBar& bar,
                 Calibrating& work);

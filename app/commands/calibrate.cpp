@@ -73,6 +73,27 @@ Status CalibrateWithObject(Context& context, CalibratingOptions options) {
   return WriteAll(context, options, work, *fit, start);
 }
 
+Status CalibrateWithPrintedBoard(Context& context, const CalibratingOptions& options) {
+  const double start = Now();
+  auto found = CalibrateWithBoard(options);
+  if (!found) return Fail(found.error());
+  if (Status written = WriteText(options.out, ToJsonText(found->fit.calibration)); !written) return written;
+  found->report["seconds"] = {{"total", Now() - start}};
+  for (const auto& warning : found->report.at("warnings")) context.Note("warning: " + warning.get<std::string>());
+  context.Output(found->report, fmt::format("{}: sd {:.3f} mm (robust {:.3f} mm), corners {:.2f} px, {} photographs",
+                                            options.out.string(), found->fit.sd_mm, found->fit.robust_sd_mm,
+                                            found->fit.corner_rms_px, options.board.size()));
+  return {};
+}
+
+Status CalibrateEitherWay(Context& context, const CalibratingOptions& options) {
+  if (!options.board.empty()) return CalibrateWithPrintedBoard(context, options);
+  if (options.reference.empty() || options.steps.empty()) {
+    return Fail(ErrorCode::kUsage, "give --reference and --steps, or the photographs of the printed board (--board)");
+  }
+  return CalibrateWithObject(context, options);
+}
+
 }  // namespace
 
 void AddCommand_calibrate(CLI::App& root, Context& context) {
@@ -81,16 +102,24 @@ void AddCommand_calibrate(CLI::App& root, Context& context) {
                                  "striae calibrate --reference ref.ply --steps steps.csv --stripes 140 --period-um 48 "
                                  "--distance-mm 900 --out small.json --map differences.png");
   auto options = std::make_shared<CalibratingOptions>();
-  command->add_option("--reference", options->reference, "Mesh of the object (PLY, mm; relief along -z)")->required();
-  command->add_option("--steps", options->steps, "CSV image,position_mm; positions grow away from the camera")
-      ->required();
+  command->add_option("--reference", options->reference, "Mesh of the object (PLY, mm; relief along -z)");
+  auto* steps =
+      command->add_option("--steps", options->steps, "CSV image,position_mm; positions grow away from the camera");
+  command->add_option("--board", options->board, "Photographs of the board of `striae print board`, about twelve")
+      ->excludes(steps);
+  command->add_option("--range", options->range, "Which board was printed: small (A4) or large (A3)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, RigRange>{{"small", RigRange::kSmall}, {"large", RigRange::kLarge}}))
+      ->default_str("small");
   command->add_option("--stripes", options->stripes, "Number of stripes of the grating")
       ->required()
       ->check(CLI::Range(4, 9999));
   command->add_option("--period-um", options->period_um, "Period of the grating, micrometres")
       ->required()
       ->check(CLI::Range(1.0, 10000.0));
-  command->add_option("--distance-mm", options->distance_mm, "Rough distance of the object in the first photograph")
+  command
+      ->add_option("--distance-mm", options->distance_mm,
+                   "Rough distance of the object (of the board) in the first photograph")
       ->required()
       ->check(CLI::Range(50.0, 100000.0));
   command->add_option("--out", options->out, "Calibration to write (JSON)")->required();
@@ -111,7 +140,7 @@ void AddCommand_calibrate(CLI::App& root, Context& context) {
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Optimizer>{{"lm", Optimizer::kLevenbergMarquardt}, {"powell", Optimizer::kPowell}}))
       ->default_str("lm");
-  OnRun(command, context, [options](Context& run) { return CalibrateWithObject(run, *options); });
+  OnRun(command, context, [options](Context& run) { return CalibrateEitherWay(run, *options); });
 }
 
 }  // namespace striae::app

@@ -11,6 +11,7 @@ namespace striae::reconstruct::detail {
 namespace {
 
 constexpr std::size_t kSamples = 250;  ///< of each photograph: a search without derivatives asks for them often
+constexpr double kUnitOfSigma = 0.2;
 constexpr int kLastEvaluations = 24000;
 constexpr unsigned long kSeed = 20261122;
 constexpr double kTolerance = 1e-6;   ///< relative, of the sd
@@ -36,7 +37,7 @@ std::vector<Place> Places(const RigFit& fit, Free free) {
         prior.index == 1 - fit.law().axis) {
       continue;
     }
-    places.push_back({prior.block, prior.index, 0.2 * prior.sigma});
+    places.push_back({prior.block, prior.index, kUnitOfSigma * prior.sigma});
   }
   return places;
 }
@@ -84,26 +85,26 @@ class Search {
 
  private:
   struct Sums {
-    double sd_mm = 0;
+    double sd_mm = 0, count = 0;
     std::vector<double> common;  ///< stripes; of each photograph, or of all
   };
   /// The sd in mm after the whole stripes' (or the central order's) best value, which has a closed form.
   Sums Sum(const RigParameters& at) const {
     Sums sums;
-    double squares = 0, count = 0, cross = 0, weight = 0;
+    double squares = 0, cross = 0, weight = 0;
     for (std::size_t v = 0; v < fit_.offsets().size(); ++v) {
       for (const auto& difference : fit_.DepthDifferences(at, v)) {
         squares += difference.mm * difference.mm;
         cross += difference.mm * difference.mm_per_stripe;
         weight += difference.mm_per_stripe * difference.mm_per_stripe;
-        count += 1;
+        sums.count += 1;
       }
       if (!each_its_own_ && v + 1 < fit_.offsets().size()) continue;
       sums.common.push_back(weight > 0 ? cross / weight : 0);
       squares -= weight > 0 ? cross * cross / weight : 0;
       cross = weight = 0;
     }
-    sums.sd_mm = std::sqrt(std::max(0.0, squares) / count);
+    sums.sd_mm = std::sqrt(std::max(0.0, squares) / sums.count);
     return sums;
   }
 
@@ -112,7 +113,16 @@ class Search {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       BlockOf(trial, places_[i].block)[places_[i].index] += places_[i].unit * x[i];
     }
-    const double sd = Sum(trial).sd_mm;
+    const Sums sums = Sum(trial);
+    // The weak beliefs, as least squares weighs them when its sigma is the sd that is found: without them the
+    // projector's place along the stripes runs away (178 mm), which hardly changes any depth.
+    double beliefs = 0;
+    for (const Place& place : places_) {
+      if (place.block == kPoseBlock) continue;
+      const double off = BlockOf(trial, place.block)[place.index] - BlockOf(fit_.nominal(), place.block)[place.index];
+      beliefs += std::pow(kUnitOfSigma * off / place.unit, 2);
+    }
+    const double sd = sums.sd_mm * std::sqrt(1 + beliefs / sums.count);
     if (++asked_ % 100 == 0 && options_.progress) {
       options_.progress(share_before_ + (share_after_ - share_before_) * asked_ / evaluations_,
                         "Powell's method, sd " + std::to_string(best_sd_) + " mm");
