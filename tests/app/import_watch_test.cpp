@@ -92,7 +92,12 @@ TEST_F(Watch, EndsAfterItsTimeAndSaysWhatItDid) {
 }
 
 TEST_F(Watch, SaysSoWhenTheCardIsPulledOut) {
-  const Ran ran = While({"--for", "60"}, [&] { fs::remove_all(Path("in")); });
+  WritePhoto("in/DSC_0001.JPG");
+  const Ran ran = While({"--for", "60"}, [&] {
+    // Once the photograph is in, the folder is being watched for sure.
+    for (int i = 0; i < 200 && Do({"show", session_}).at("captures").empty(); ++i) std::this_thread::sleep_for(100ms);
+    fs::remove_all(Path("in"));
+  });
   EXPECT_EQ(ran.exit_code, 1);
   EXPECT_THAT(ran.err, ::testing::HasSubstr("cannot list"));
 }
