@@ -153,24 +153,24 @@ double Check(Trials& trials, const Body& body, bool details) {
   return all.Share();
 }
 
-/// Twice u holds 95 % of normal errors; the grating's ends and silhouettes are not normal, so 90 % on smooth bodies.
-/// Mottled skin bends the phase more than u knows (docs/measured.md says where): there the bar only keeps what is
-/// reached.
-constexpr double kSmooth = 0.9, kMottledLimb = 0.7, kMottledBust = 0.6;
+/// Twice u holds 95 % of normal errors. Errors at the rims that slope away from the light are not normal and larger
+/// than u knows (docs/measured.md), and mottled skin bends the phase a little: there the bars keep what is reached, 3 %
+/// below it.
+constexpr double kFlat = 0.95, kRound = 0.86, kLimb = 0.84, kBust = 0.8, kQuarterBust = 0.77;
 
 TEST(UncertaintyLong, HoldsOnEveryBodyWithTheTrueRig) {
   for (const Range range : {Range::kSmall, Range::kLarge}) {
     Trials trials(range, 1);
     for (const char* iso : {"400", "1600"}) {
       const bool details = std::string(iso) == "400";
-      EXPECT_GT(Check(trials, {"plane", "plane", {"--tilt-x", "7", "--tilt-y", "-5", "--iso", iso}}, details), kSmooth);
+      EXPECT_GT(Check(trials, {"plane", "plane", {"--tilt-x", "7", "--tilt-y", "-5", "--iso", iso}}, details), kFlat);
       // Shows no end of the grating: told the distance as a tape finds it.
       const double front_mm = trials.small() ? 1000 + 150.0 / 8 - 3 : 2000 + 300.0 / 8 - 3;
-      EXPECT_GT(Check(trials, {"ball", "ball", {"--iso", iso, "--y-mm", "4"}, front_mm}, details), kSmooth);
+      EXPECT_GT(Check(trials, {"ball", "ball", {"--iso", iso, "--y-mm", "4"}, front_mm}, details), kRound);
       if (trials.small()) {
-        EXPECT_GT(Check(trials, {"limb", "limb", {"--iso", iso}}, details), kMottledLimb);
+        EXPECT_GT(Check(trials, {"limb", "limb", {"--iso", iso}}, details), kLimb);
       } else {
-        EXPECT_GT(Check(trials, {"bust", "neutral", {"--iso", iso}}, details), kMottledBust);
+        EXPECT_GT(Check(trials, {"bust", "neutral", {"--iso", iso}}, details), kBust);
       }
     }
   }
@@ -178,8 +178,8 @@ TEST(UncertaintyLong, HoldsOnEveryBodyWithTheTrueRig) {
 
 TEST(Uncertainty, HoldsOnAQuarterOfTheSensor) {
   Trials trials(Range::kLarge, 3, 0.25);
-  EXPECT_GT(Check(trials, {"plane", "plane", {"--tilt-x", "7", "--tilt-y", "-5", "--iso", "400"}}, false), kSmooth);
-  EXPECT_GT(Check(trials, {"bust", "neutral", {"--iso", "400"}}, true), kMottledBust);
+  EXPECT_GT(Check(trials, {"plane", "plane", {"--tilt-x", "7", "--tilt-y", "-5", "--iso", "400"}}, false), kFlat);
+  EXPECT_GT(Check(trials, {"bust", "neutral", {"--iso", "400"}}, true), kQuarterBust);
 }
 
 }  // namespace
