@@ -141,6 +141,12 @@ std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibratio
   return resolver.Take();
 }
 
+std::vector<RegionOrder> ResolveOrder(PhaseResult& phase, const Calibration& calibration, double distance_mm,
+                                      const std::optional<TargetSighting>& target) {
+  const std::vector<int> sheets = SplitDoubtfulRegions(phase);
+  return ResolveOrder(phase, calibration, distance_mm, target, sheets);
+}
+
 std::vector<RegionOrder> SummarisedRegions(const std::vector<RegionOrder>& regions) {
   std::size_t all = 0;
   for (const RegionOrder& region : regions) all += region.points;
