@@ -20,7 +20,7 @@ using detail::BoardFree;
 using detail::BoardProblem;
 
 constexpr std::size_t kFewestCorners = 8, kFewestViews = 5, kFewestInSheet = 30;
-constexpr double kSamples = 3000;  ///< on the whole sensor; a plane needs few
+constexpr double kSamples = 6000;  ///< on the whole sensor; a plane needs few
 constexpr double kLeastDepthShare = 0.04, kLeastTilts_deg = 10;
 constexpr double kOffsetTolerance = 0.2;
 constexpr double kLargestCorner_px = 6, kLargestSd_stripes = 0.1;
