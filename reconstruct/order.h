@@ -63,7 +63,8 @@ std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibratio
 /// was part of before. Nothing is touched when there is nothing to part.
 std::vector<int> SplitDoubtfulRegions(PhaseResult& phase);
 
-/// Parts the doubtful regions of `phase` first, then resolves: what a photograph's reconstruction wants.
+/// Parts the doubtful regions of `phase` first where a stripe is more than 60 mm of depth (2 m range), then resolves:
+/// what a photograph's reconstruction wants.
 std::vector<RegionOrder> ResolveOrder(PhaseResult& phase, const Calibration& calibration, double distance_mm,
                                       const std::optional<TargetSighting>& target = std::nullopt);
 

@@ -17,7 +17,7 @@ namespace striae::reconstruct {
 struct PhaseOptions {
   std::optional<StripeDirection> direction;  ///< found when not given
   /// Half width of the Hann window over the carrier's frequency. Wider keeps edges, narrower removes noise.
-  double window_half_width = 0.7;
+  double window_half_width = 0.9;
   /// Smoothing along the stripes (standard deviation of a Gaussian, in periods): with the Hann window it makes a window
   /// in two dimensions. Across the stripes the window reaches much farther, so that no detail is lost.
   double smoothing_along = 0;

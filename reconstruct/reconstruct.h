@@ -26,7 +26,7 @@ struct ReconstructOptions {
   bool faces = true;
   /// Smoothing of the order along the stripes (standard deviation in periods), where the noise is larger than the
   /// shape.
-  double smoothing_along = 0.25;
+  double smoothing_along = 0.3;
   /// Points whose depth lies further outside of the working distance than this share of it are no part of the subject.
   double outside_working_share = 0.12;
 };
