@@ -35,7 +35,9 @@ Ran Run(const std::vector<std::string>& arguments) {
 fs::path FolderFor(const std::string& name, bool& keep) {
   const char* kept = std::getenv("STRIAE_TRIALS");
   keep = kept != nullptr;
-  const fs::path folder = keep ? fs::path(kept) / name : fs::temp_directory_path() / ("striae-trial-" + name);
+  // Tests of the same rig run beside each other: each process has a folder of its own.
+  const std::string own = "striae-trial-" + name + "-" + std::to_string(::getpid());
+  const fs::path folder = keep ? fs::path(kept) / name : fs::temp_directory_path() / own;
   if (!keep) fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
