@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
+#include <unistd.h>
 
 #include "app/io/photograph.h"
 #include "tests/support/files.h"
