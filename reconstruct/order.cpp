@@ -141,18 +141,6 @@ std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibratio
   return resolver.Take();
 }
 
-std::vector<RegionOrder> ResolveOrder(PhaseResult& phase, const Calibration& calibration, double distance_mm,
-                                      const std::optional<TargetSighting>& target) {
-  // Where a stripe is a few millimetres of depth, the dark rim of every wound would be a doubtful joint, and the field
-  // is too small for an arm in front of another body. Where it is a hand's breadth, such a step is what goes unseen.
-  constexpr double kDeepStripe_mm = 60;
-  const Eigen::Vector3d middle =
-      RayOf(calibration.camera, {calibration.image_width_px / 2.0, calibration.image_height_px / 2.0});
-  const double stripe_mm = std::abs(StripeOptics(calibration).DepthPerStripe(middle, distance_mm));
-  const std::vector<int> sheets = stripe_mm > kDeepStripe_mm ? SplitDoubtfulRegions(phase) : std::vector<int>();
-  return ResolveOrder(phase, calibration, distance_mm, target, sheets);
-}
-
 std::vector<RegionOrder> SummarisedRegions(const std::vector<RegionOrder>& regions) {
   std::size_t all = 0;
   for (const RegionOrder& region : regions) all += region.points;

@@ -63,11 +63,6 @@ std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibratio
 /// was part of before. Nothing is touched when there is nothing to part.
 std::vector<int> SplitDoubtfulRegions(PhaseResult& phase);
 
-/// Parts the doubtful regions of `phase` first where a stripe is more than 60 mm of depth (2 m range), then resolves:
-/// what a photograph's reconstruction wants.
-std::vector<RegionOrder> ResolveOrder(PhaseResult& phase, const Calibration& calibration, double distance_mm,
-                                      const std::optional<TargetSighting>& target = std::nullopt);
-
 /// For reports: the regions with at least a thousandth of all points (and the largest); the others are added up, those
 /// without an order in one entry and those with one, which then carries the least margin among them, in another.
 std::vector<RegionOrder> SummarisedRegions(const std::vector<RegionOrder>& regions);
