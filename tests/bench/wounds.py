@@ -1,0 +1,272 @@
+"""Wounds through the whole chain, against bars: photographs by the virtual rig, own calibration, surface, measurement.
+
+Bodies, wounds and rigs are made by wound_bodies.py; no parameter of a rig is told to the program. Photographs, surfaces
+(cut out around the wound) and outlines are kept in --cache. Prints a line for each scene and the table of the bars; exit
+code 1 when a bar is missed and --strict is given."""
+import argparse
+import json
+import os
+import shutil
+import sys
+
+import numpy as np
+
+import wound_bodies as bodies
+from surfaces import must_run, run
+
+OUTLINE_JITTER_MM = 0.5
+
+
+def unknown_rig(seed):
+    """A rig for 1 m: focal length within 1 %, principal point 25 px, projector 5 mm and a fifth of a degree."""
+    rng = np.random.default_rng(1000 + seed)
+    off = lambda most: rng.uniform(-most, most)
+    f = 9570 * (1 + off(0.01))
+    centre = [3 + off(5), -112 + off(5), 44 + off(5)]
+    down = float(np.arctan2(-centre[1], 1000 - centre[2]))
+    return {"format": "striae-calibration/1", "image_size": [4288, 2848],
+            "camera": {"fx": f, "fy": f * (1 + off(0.001)), "cx": 2144 + off(25), "cy": 1424 + off(25), "k1": -0.04 + off(0.03),
+                       "k2": 0.02 + off(0.03), "p1": off(2e-4), "p2": off(2e-4)},
+            "projector": {"model": "pinhole", "center_mm": centre, "rotation_rodrigues": [down + off(0.0035), off(0.005), off(0.005)],
+                          "focal_stripes": 523 * (1 + off(0.02)), "center_order": 69.5 + off(1.5), "k1": -0.02 + off(0.015)},
+            "grating": {"stripes": 140, "direction": "horizontal"}, "working_distance_mm": [850, 1150]}
+
+
+class Rig:
+    def __init__(self, options, seed):
+        self.folder = os.path.join(options.cache, f"rig-{seed}")
+        self.true, self.own = os.path.join(self.folder, "true.json"), os.path.join(self.folder, "own.json")
+        self.parameters = unknown_rig(seed)
+        if os.path.exists(self.own):
+            return
+        os.makedirs(self.folder, exist_ok=True)
+        with open(self.true, "w") as file:
+            json.dump(self.parameters, file)
+        steps = os.path.join(self.folder, "steps")
+        must_run([options.maker, "simulate", "steps", "--rig", self.true, "--out", steps, "--steps", "9", "--step-mm", "25",
+                  "--seed", seed])
+        must_run([options.maker, "calibrate", "--reference", f"{steps}/reference.ply", "--steps", f"{steps}/steps.csv", "--stripes",
+                  "140", "--period-um", "48", "--distance-mm", "900", "--out", self.own])
+        shutil.rmtree(steps)
+
+
+def draw_wound(seed, kind):
+    """Depth and radius: volumes evenly over the decades from 0.1 to 30 mL (heel: to 5), 1.5 to 15 mm deep."""
+    rng = np.random.default_rng(seed)
+    while True:
+        depth, volume = np.exp(rng.uniform(np.log(1.5), np.log(15))), 10 ** rng.uniform(-1, np.log10(5 if kind == "heel" else 30))
+        body = {"limb": rng.uniform(45, 62), "calf": rng.uniform(52, 68), "heel": rng.uniform(40, 46), "flat": 0}[kind]
+        radius = np.sqrt(1000 * volume / (1.3 * np.pi * 0.55 * depth))
+        if 4 < radius < 32 and depth < 1.0 * radius and (kind == "flat" or 1.6 * radius < 0.75 * body):
+            return depth, radius, body
+
+
+def place(points, rng):
+    """Hand-held: within 10 degrees and 30 mm."""
+    turn = bodies.rotation(*rng.uniform(-10, 10, 3))
+    return lambda p: p @ turn.T + np.array([0, 0, 1000]) + shift, turn, (shift := rng.uniform(-30, 30, 3))
+
+
+def cut_surface(path, outline, target):
+    """Keeps the points within 480 pixels (50 mm) of the outline."""
+    kinds = {"float": "<f4", "uchar": "u1", "ushort": "<u2"}
+    with open(path, "rb") as file:
+        header, properties, in_vertex, count = [], [], False, 0
+        while (line := file.readline().decode().strip()) != "end_header":
+            words = line.split()
+            if words[0] == "element":
+                in_vertex = words[1] == "vertex"
+                count = int(words[2]) if in_vertex else count
+            elif words[0] == "property" and in_vertex:
+                properties.append((words[2], kinds[words[1]]))
+            header.append(line)
+        points = np.fromfile(file, np.dtype(properties), count)
+    low, high = outline.min(0) - 480, outline.max(0) + 480
+    kept = points[(points["col"] > low[0]) & (points["col"] < high[0]) & (points["row"] > low[1]) & (points["row"] < high[1])]
+    lines = [f"element vertex {len(kept)}" if line.startswith("element vertex") else line for line in header
+             if not line.startswith(("element face", "property list"))]
+    with open(target, "wb") as file:
+        file.write(("\n".join(lines + ["end_header", ""])).encode())
+        kept.tofile(file)
+
+
+def jittered(outline, mm_per_px, seed):
+    """Every point moved by 0.5 mm (one sd a coordinate); every other drawing has points at least 2 mm apart."""
+    rng = np.random.default_rng(seed)
+    if seed % 2:
+        keep = [outline[0]]
+        for p in outline[1:]:
+            if np.hypot(*(p - keep[-1])) * mm_per_px > 2:
+                keep.append(p)
+        outline = np.array(keep)
+    return outline + rng.normal(0, OUTLINE_JITTER_MM / mm_per_px, outline.shape)
+
+
+def scene(options, rig, name, wound, pose_seed, oedema=0.0):
+    """Renders and reconstructs once; returns folder and truth."""
+    folder = os.path.join(options.cache, name)
+    if os.path.exists(os.path.join(folder, "truth.json")):
+        with open(os.path.join(folder, "truth.json")) as file:
+            return folder, json.load(file)
+    os.makedirs(folder, exist_ok=True)
+    kind, seed, depth, radius, body = wound
+    points, triangles, colour, line, truth = bodies.make(kind, seed, depth, radius, body, oedema)
+    rng = np.random.default_rng(pose_seed)
+    move, _, _ = place(points, rng)
+    outline = bodies.project(rig.parameters["camera"], move(line))
+    mesh, out = os.path.join(folder, "body.ply"), os.path.join(folder, "rendered")
+    bodies.write_ply(mesh, move(points), triangles, colour)
+    must_run([options.maker, "simulate", "mesh", mesh, "--in-camera", "--rig", rig.true, "--out", out, "--seed", pose_seed % 100000])
+    whole = os.path.join(folder, "whole.ply")
+    wall, _, _, code, said = run([options.maker, "reconstruct", f"{out}/mesh.jpg", "--calibration", rig.own, "--out", whole, "--json",
+                                  "--distance-mm", str(round(float(move(line)[:, 2].mean())))])
+    truth |= {"outline_px": outline.tolist(), "mm_per_px": float(move(line)[:, 2].mean() / rig.parameters["camera"]["fx"]),
+              "failed": code != 0, "photo": "mesh.jpg"}
+    if code == 0:
+        cut_surface(whole, outline, os.path.join(folder, "surface.ply"))
+        os.remove(whole)
+    shutil.move(f"{out}/mesh.jpg", os.path.join(folder, "mesh.jpg"))
+    shutil.rmtree(out)
+    os.remove(mesh)
+    with open(os.path.join(folder, "truth.json"), "w") as file:
+        json.dump(truth, file)
+    return folder, truth
+
+
+def measure(options, folder, polygon, tag):
+    path = os.path.join(folder, f"outline-{tag}.json")
+    with open(path, "w") as file:
+        json.dump({"polygon_px": polygon.tolist()}, file)
+    process = run([options.striae, "measure", "wound", os.path.join(folder, "surface.ply"), "--outline", path, "--json"])
+    return (json.loads(process[4]) if process[3] == 0 else None), process[0]
+
+
+def compare(report, truth):
+    """Relative errors and errors over standard uncertainties."""
+    values = {m["name"]: m for m in report["measurements"]}
+    result = {}
+    for name, key in (("volume", "volume_ml"), ("area", "area_cm2"), ("depth_max", "depth_mm")):
+        m = values[name]
+        result[name] = (m["value"] / truth[key] - 1, (m["value"] - truth[key]) / m["uncertainty"], m["status"] == "flagged")
+    return result
+
+
+KINDS = ["limb", "calf", "flat", "limb", "heel"]
+
+
+def bars(options, rigs):
+    rows = []
+    print(f"{'scene':>12} {'kind':5} {'mL':>6} {'mean':>5} {'max mm':>6} {'cm2':>6} wall | {'volume %':>9} {'e/u':>5} | {'area %':>7} {'e/u':>5} | "
+          f"{'depth %':>7} {'e/u':>5} | seconds, flags")
+    for i in range(options.first, options.first + options.scenes):
+        kind = KINDS[i % len(KINDS)]
+        wound = (kind, 100 + i, *draw_wound(100 + i, kind))
+        folder, truth = scene(options, rigs[i % len(rigs)], f"scene-{i:03d}", wound, 5000 + i)
+        label = f"{i:12d} {kind:5} {truth['volume_ml']:6.2f} {truth['mean_depth_mm']:5.2f} {truth['depth_mm']:6.2f} {truth['area_cm2']:6.2f} {truth['wall']:4.1f} |"
+        polygon = jittered(np.array(truth["outline_px"]), truth["mm_per_px"], i)
+        report, seconds = (None, 0) if truth["failed"] else measure(options, folder, polygon, "jittered")
+        if report is None:
+            print(label, "no surface" if truth["failed"] else "refused", flush=True)
+            rows.append((truth, None))
+            continue
+        e = compare(report, truth)
+        flags = {m.get("reason", "") for m in report["measurements"]} - {""}
+        print(label, " | ".join(f"{100 * e[n][0]:{w}.2f} {e[n][1]:5.1f}" for n, w in (("volume", 9), ("area", 7), ("depth_max", 7))),
+              f"| {seconds:.1f}", "; ".join(flags)[:150], flush=True)
+        rows.append((truth, e))
+    return rows
+
+
+def percent(values, f):
+    return f"{100 * f(np.abs(values)):6.2f} %" if len(values) else "     -"
+
+
+def print_table(rows):
+    done = [(t, e) for t, e in rows if e]
+    deep = [(t, e) for t, e in done if t["mean_depth_mm"] > 2.5 and t["volume_ml"] >= 0.5]
+    rest = [(t, e) for t, e in done if not (t["mean_depth_mm"] > 2.5 and t["volume_ml"] >= 0.5)]
+    pick = lambda group, name, k=0: np.array([e[name][k] for _, e in group])
+    print(f"\n{len(rows)} scenes, {len(rows) - len(done)} refused or without surface, "
+          f"{sum(e['volume'][2] for _, e in done)} with a flagged volume")
+    v = pick(deep, "volume")
+    print(f"volume, mean depth over 2.5 mm ({len(v)}): median {percent(v, np.median)}, worst {percent(v, np.max)}  (bar 1.5 / 4 %)")
+    s = pick(rest, "volume")
+    off = np.array([abs(e["volume"][0]) * t["volume_ml"] * 1000 for t, e in rest])
+    print(f"volume, shallow or under 0.5 mL ({len(s)}): median {percent(s, np.median)}, worst {percent(s, np.max)}, worst "
+          f"{off.max() if len(off) else 0:.0f} mm3  (bar: median 8 % or 30 mm3)")
+    a, d = pick(done, "area"), pick(done, "depth_max")
+    dd = pick(deep, "depth_max")
+    print(f"area: median {percent(a, np.median)}, worst {percent(a, np.max)}  (bar 3 %)")
+    print(f"depth: median {percent(d, np.median)}, worst {percent(d, np.max)}; over 2.5 mm mean: mean {100 * dd.mean() if len(dd) else 0:+.2f} %, worst {percent(dd, np.max)}  (bar 3 %)")
+    for name in ("volume", "area", "depth_max"):
+        r = pick(done, name, 1)
+        print(f"{name}: within 2 u {100 * np.mean(np.abs(r) < 2):.1f} %, rms e/u {np.sqrt(np.mean(r * r)):.2f}  (bar 90-98 %)")
+
+
+def oedema(options, rigs):
+    """Swollen rims of 1 and 2 mm: error with the moved ring against the ring beside the line; flagged or not."""
+    print("\nswollen rims: error of the volume, of the naive ring, gap, flags")
+    for i in range(options.oedema):
+        rim = 1.0 + i % 2
+        volume = [1.0, 3.0, 8.0][i // 2 % 3]
+        depth = [5.0, 6.0, 8.0][i // 2 % 3]
+        radius = np.sqrt(1000 * volume / (1.3 * np.pi * 0.55 * depth))
+        wound = (KINDS[i % 3], 900 + i, depth, radius, 55)
+        folder, truth = scene(options, rigs[i % len(rigs)], f"oedema-{i:03d}", wound, 7000 + i, rim)
+        polygon = jittered(np.array(truth["outline_px"]), truth["mm_per_px"], i)
+        report, _ = measure(options, folder, polygon, "jittered")
+        if report is None:
+            print(f"  rim {rim} mm, {truth['volume_ml']:.2f} mL: refused")
+            continue
+        m = report["measurements"][0]
+        naive = report["net_volume_at_first_gap_ml"] / truth["volume_ml"] - 1
+        print(f"  {truth['kind']:5} rim {rim} mm, width {truth['oedema_width_mm']:.1f}, {truth['volume_ml']:.2f} mL: "
+              f"{100 * (m['value'] / truth['volume_ml'] - 1):+7.1f} %, naive {100 * naive:+7.1f} %, e/u "
+              f"{(m['value'] - truth['volume_ml']) / m['uncertainty']:+.1f}, gap {report['skin']['gap_mm']}, {m['status']} {m.get('reason', '')[:80]}", flush=True)
+
+
+def repeats(options, rigs):
+    """Ten hand-held captures of one wound, each outlined anew."""
+    for wound_index in range(options.repeats):
+        kind = ["limb", "calf", "flat"][wound_index % 3]
+        depth, radius, body = [(5, 12, 55), (8, 18, 60), (4, 9, 0)][wound_index % 3]
+        wound = (kind, 800 + wound_index, depth, radius, body)
+        volumes, areas = [], []
+        for k in range(10):
+            folder, truth = scene(options, rigs[0], f"repeat-{wound_index}-{k}", wound, 8000 + 10 * wound_index + k)
+            polygon = jittered(np.array(truth["outline_px"]), truth["mm_per_px"], 2 * k + 1)
+            report, _ = measure(options, folder, polygon, "jittered")
+            if report is None:
+                continue
+            values = {m["name"]: m["value"] for m in report["measurements"]}
+            volumes.append(values["volume"])
+            areas.append(values["area"])
+        cv = lambda x: 100 * np.std(x, ddof=1) / np.mean(x)
+        print(f"repeatability, {kind}, {truth['volume_ml']:.2f} mL, {truth['area_cm2']:.2f} cm2, {len(volumes)} captures: "
+              f"volume CV {cv(volumes):.2f} % (bar 2), area CV {cv(areas):.2f} % (bar 1.5), mean volume error "
+              f"{100 * (np.mean(volumes) / truth['volume_ml'] - 1):+.2f} %", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--striae", required=True, help="program that measures")
+    parser.add_argument("--maker", help="program that renders, calibrates and reconstructs (default: the same)")
+    parser.add_argument("--cache", required=True, help="folder for scenes")
+    parser.add_argument("--scenes", type=int, default=20)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--rigs", type=int, default=2)
+    parser.add_argument("--oedema", type=int, default=0)
+    parser.add_argument("--repeats", type=int, default=0, help="wounds photographed ten times each")
+    options = parser.parse_args()
+    options.maker = options.maker or options.striae
+    rigs = [Rig(options, seed) for seed in range(options.rigs)]
+    if options.scenes:
+        print_table(bars(options, rigs))
+    if options.oedema:
+        oedema(options, rigs)
+    if options.repeats:
+        repeats(options, rigs)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
