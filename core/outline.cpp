@@ -19,6 +19,44 @@ bool Meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vecto
   return ((c_side > 0) != (d_side > 0)) && ((a_side > 0) != (b_side > 0));
 }
 
+double Area(const std::vector<Eigen::Vector2d>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) twice += Cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return std::abs(twice) / 2;
+}
+
+// A hand's tremor, or a dense line with every point a little off, makes small loops: each that encloses less than
+// kSmallLoop of the rest is cut off where the line crosses itself. What is larger is left for the caller to refuse.
+std::vector<Eigen::Vector2d> WithoutSmallLoops(std::vector<Eigen::Vector2d> polygon) {
+  constexpr double kSmallLoop = 0.02;
+  for (std::size_t i = 0; i + 2 < polygon.size(); ++i) {
+    for (std::size_t j = i + 2; j < polygon.size(); ++j) {
+      const std::size_t n = polygon.size();
+      if (i == 0 && j == n - 1) continue;
+      const Eigen::Vector2d a = polygon[i], b = polygon[i + 1], c = polygon[j], d = polygon[(j + 1) % n];
+      if (!Meet(a, b, c, d)) continue;
+      const Eigen::Vector2d crossing = a + Cross(c - a, d - c) / Cross(b - a, d - c) * (b - a);
+      const auto at = [&](std::size_t k) { return polygon.begin() + static_cast<std::ptrdiff_t>(k); };
+      std::vector<Eigen::Vector2d> loop = {crossing}, rest(polygon.begin(), at(i + 1));
+      loop.insert(loop.end(), at(i + 1), at(j + 1));
+      rest.push_back(crossing);
+      rest.insert(rest.end(), at(j + 1), polygon.end());
+      const double loop_area = Area(loop), rest_area = Area(rest);
+      if (loop_area < kSmallLoop * rest_area) {
+        polygon = std::move(rest);
+        j = i + 1;  // the side is shorter now and may cross once more
+      } else if (rest_area < kSmallLoop * loop_area) {
+        polygon = std::move(loop);
+        i = 0;
+        j = 1;
+      } else {
+        return polygon;
+      }
+    }
+  }
+  return polygon;
+}
+
 std::vector<Eigen::Vector2d> ReadPoints(const json& points, double shift_px) {
   std::vector<Eigen::Vector2d> polygon;
   for (const json& point : points) {
@@ -47,13 +85,12 @@ std::vector<Eigen::Vector2d> ReadLabelMe(const json& root, std::string& problem)
   return ReadPoints(found->at("points"), kLabelMeShiftPx);
 }
 
-std::string Problem(const std::vector<Eigen::Vector2d>& polygon) {
+std::string BadPoints(const std::vector<Eigen::Vector2d>& polygon) {
   if (polygon.size() < 3) return "an outline needs at least three points";
   if (polygon.size() > kMostPoints) return "the outline has more than 20000 points";
   for (const auto& point : polygon) {
     if (!point.allFinite() || point.cwiseAbs().maxCoeff() > 1e6) return "the outline has a point that is no pixel";
   }
-  if (SelfCrossing(polygon)) return "the outline crosses itself; draw it again as one simple loop";
   return {};
 }
 
@@ -88,7 +125,11 @@ Result<Outline> OutlineFromJson(std::string_view text) {
     Outline outline;
     std::string problem;
     outline.polygon_px = root.contains("shapes") ? ReadLabelMe(root, problem) : ReadPoints(root.at("polygon_px"), 0);
-    if (problem.empty()) problem = Problem(outline.polygon_px);
+    if (problem.empty()) problem = BadPoints(outline.polygon_px);
+    if (problem.empty()) {
+      outline.polygon_px = WithoutSmallLoops(std::move(outline.polygon_px));
+      if (SelfCrossing(outline.polygon_px)) problem = "the outline crosses itself; draw it again as one simple loop";
+    }
     if (!problem.empty()) return Fail(ErrorCode::kBadFile, problem);
     if (root.contains("image_sha256") && !root.at("image_sha256").is_null()) {
       const auto sha256 = Sha256::Parse(root.at("image_sha256").get<std::string>());
