@@ -26,9 +26,29 @@ Status CheckOptions(const Options& o) {
               "wound options: lengths must be positive, and the gaps ascending and not smaller than the margin");
 }
 
+// Null wounds need skin out to the far side of an outline beside the wound. No such skin is no error.
+IntactSkin LookAtIntactSkin(const Surface& surface, const Outline& outline, const Scene& scene, const Ring& ring,
+                            const Options& options) {
+  double across_mm = 0;
+  for (const auto& p : scene.outline) across_mm = std::max(across_mm, 2 * (p - scene.outline.front()).norm());
+  const double reach_mm = across_mm + 2 * ring.gap_mm + ring.width_mm + 6;
+  const auto coarse = CoarseScene(surface, outline, scene, std::max(options.null_cell_mm, options.cell_mm), reach_mm);
+  if (!coarse) return {};
+  return TryIntactSkin(*coarse, ring.gap_mm, ring.width_mm, options.max_ring_slope_deg);
+}
+
+nlohmann::json NullsAsJson(const IntactSkin& intact, std::size_t model) {
+  nlohmann::json nulls = nlohmann::json::array();
+  for (const NullWound& null : intact.wounds) {
+    if (null.mean_mm[model])
+      nulls.push_back({{"shift_mm", {null.shift_mm.x(), null.shift_mm.y()}}, {"mean_mm", *null.mean_mm[model]}});
+  }
+  return nulls;
+}
+
 }  // namespace
 
-std::string_view MethodVersion() { return "wound/1"; }
+std::string_view MethodVersion() { return "wound/2"; }
 
 Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, const Options& options) {
   if (auto good = CheckOptions(options); !good) return Fail(good.error());
@@ -39,7 +59,10 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   const Bed bed = TakeBed(scene, options.margin_mm);
   auto choice = ChooseRing(scene, bed, options);
   if (!choice) return Fail(choice.error());
-  const Attempt& a = choice->chosen;
+  const IntactSkin intact = LookAtIntactSkin(surface, outline, scene, choice->chosen.ring, options);
+  const ModelChoice model = ChooseModel(choice->chosen, intact);
+  Attempt& a = choice->chosen;
+  if (model.model != 0) a.skin = FitSkin(kSkinModels[model.model], a.ring.points, a.weights);
   Flags flags;
   if (auto good = CheckRing(*choice, options, flags); !good) return Fail(good.error());
   if (plus->boundary_share < 0.97) flags.all.push_back("part of the outline lies at an edge or hole of the surface");
@@ -56,7 +79,7 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   findings.noise_mm = SmoothedRingSd(scene, smoothed, a.ring);
   findings.depths = MeasureDepths(scene, bed, a.skin, smoothed, kProudNoise * findings.noise_mm);
   findings.boundary = MeasureBoundary(scene.outline, a.skin, options.perimeter_step_mm, scene.patch.cell_mm());
-  const Budget budget = DrawBudget(scene, bed, *choice, findings, options, flags);
+  const Budget budget = DrawBudget(scene, bed, *choice, model, intact, findings, options, flags);
 
   AnalysisReport report;
   report.analysis = "wound";
@@ -71,6 +94,8 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
                             {"ring_coverage", a.ring.coverage},
                             {"ring_rms_mm", a.skin.rms_mm},
                             {"radial_step_mm", a.trend.step_mm},
+                            {"chosen_by", model.by},
+                            {"null_wounds", NullsAsJson(intact, model.model)},
                             {"models", budget.models}};
   report.details["net_volume_ml"] = *net / 1000;
   report.details["net_volume_at_first_gap_ml"] = choice->first_volume_mm3 / 1000;

@@ -20,6 +20,7 @@ struct Options {
   std::vector<double> gaps_mm = {2, 3, 4, 6, 8, 10, 12, 15, 18};
   double ring_width_mm = 12;
   double radial_trend_mm = 0.05;   ///< step between the ring's inner edge and its middle that counts as oedema
+  double null_cell_mm = 1.0;       ///< cells for looking at intact skin beside the wound
   double smoothing_mm = 0.5;       ///< sd of the Gaussian before depth and bed area; volume stays unsmoothed
   double perimeter_step_mm = 1.0;  ///< the outline is resampled at this step and draped on the virtual skin
   double max_ring_slope_deg = 60;  ///< steeper skin (against the ring's mean plane) cannot be continued by polynomials

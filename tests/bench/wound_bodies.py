@@ -32,8 +32,11 @@ def heel(rng, radius):
 
 
 def flat(rng, _):
-    """A back: waves of a few mm over a decimetre or more."""
-    waves = [(rng.uniform(0.5, 3), *(rng.normal(size=2) / rng.uniform(15, 40)), rng.uniform(0, 6.28)) for _ in range(3)]
+    """A back: waves of up to 3 mm, 150 mm and longer."""
+    waves = []
+    for _ in range(3):
+        way, k = rng.uniform(0, 6.28), 2 * np.pi / rng.uniform(150, 400)
+        waves.append((rng.uniform(0.5, 3), k * np.cos(way), k * np.sin(way), rng.uniform(0, 6.28)))
 
     def skin(u, v):
         z = sum(a * np.sin(kx * u + ky * v + p) for a, kx, ky, p in waves)
@@ -135,6 +138,8 @@ def make(kind, seed, depth, radius, body_radius, oedema=0.0):
 def write_ply(path, points, triangles, colour):
     vertex = np.empty(len(points), [("p", "<f4", 3), ("c", "u1", 3)])
     vertex["p"], vertex["c"] = points, colour
+    while vertex[:1].tobytes()[0] in b"\t\n\r ":  # readers that skip white space after the header would lose it
+        vertex["p"][0] += 1e-4
     face = np.empty(len(triangles), [("n", "u1"), ("v", "<i4", 3)])
     face["n"], face["v"] = 3, triangles
     with open(path, "wb") as file:

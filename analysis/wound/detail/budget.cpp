@@ -9,6 +9,7 @@ namespace striae::wound {
 namespace {
 
 constexpr double kComparableFit = 1.2;       // a model whose ring rms is worse than this does not fit, and says nothing
+constexpr double kComparableScore = 1.5;     // nor one that continues intact skin worse than this
 constexpr double kBridgeRelativeSd = 0.1;    // of the volume over bridged holes
 constexpr double kBedAreaRelativeSd = 0.02;  // smoothing rounds the rim
 constexpr double kDepthRelativeSd = 0.01;    // the Fourier window rings at steep walls
@@ -31,17 +32,25 @@ struct Alternatives {
   double volume_sd_mm3 = 0, depth_sd_mm = 0;
 };
 
-Alternatives CompareModels(const Attempt& a, const Bed& bed, const Eigen::Vector2d& deepest) {
+Alternatives CompareModels(const Attempt& a, const ModelChoice& choice, const Bed& bed,
+                           const Eigen::Vector2d& deepest) {
   Alternatives result;
   const double volume = PrismSum(bed, HeightsAbove(bed, a.skin));
   const double height = a.skin.Height(deepest.x(), deepest.y());
+  const double best_mm = choice.score_mm[choice.model].value_or(0);
   double volume_gap = 0, height_gap = 0;
-  for (const SkinModel model : {SkinModel::kC2, SkinModel::kC4, SkinModel::kQuadricC4}) {
-    const Skin skin = FitSkin(model, a.ring.points, a.weights);
+  for (std::size_t m = 0; m < kSkinModels.size(); ++m) {
+    const Skin skin = FitSkin(kSkinModels[m], a.ring.points, a.weights);
+    if (skin.fell_back && m > 0) continue;
     const double other = PrismSum(bed, HeightsAbove(bed, skin));
-    result.table.push_back(
-        {{"model", std::string(ToString(model))}, {"net_volume_ml", other / 1000}, {"ring_rms_mm", skin.rms_mm}});
+    const auto& score = choice.score_mm[m];
+    result.table.push_back({{"model", std::string(ToString(kSkinModels[m]))},
+                            {"net_volume_ml", other / 1000},
+                            {"ring_rms_mm", skin.rms_mm},
+                            {"score_mm", score ? nlohmann::json(*score) : nlohmann::json()}});
+    // A model says something about this wound if it fits the ring, and intact skin, about as well.
     if (skin.rms_mm > kComparableFit * a.skin.rms_mm + 1e-6 * a.skin.radius_mm) continue;
+    if (!score || *score > kComparableScore * best_mm + 0.01) continue;
     volume_gap = std::max(volume_gap, std::abs(other - volume));
     height_gap = std::max(height_gap, std::abs(skin.Height(deepest.x(), deepest.y()) - height));
   }
@@ -53,14 +62,16 @@ Alternatives CompareModels(const Attempt& a, const Bed& bed, const Eigen::Vector
 
 /// Standard uncertainties of the volume, mm3.
 struct VolumeParts {
-  double ring = 0, bed = 0, model = 0, gap = 0, outline = 0, walls = 0, bridges = 0, scale = 0;
-  [[nodiscard]] double Sum() const { return RootOfSquares({ring, bed, model, gap, outline, walls, bridges, scale}); }
+  double ring = 0, bed = 0, model = 0, nulls = 0, gap = 0, outline = 0, walls = 0, bridges = 0, scale = 0;
+  [[nodiscard]] double Sum() const {
+    return RootOfSquares({ring, bed, model, nulls, gap, outline, walls, bridges, scale});
+  }
 };
 
 nlohmann::json ToJson(const VolumeParts& u) {
-  return {{"ring", u.ring / 1000},       {"bed", u.bed / 1000},         {"model", u.model / 1000},
-          {"gap", u.gap / 1000},         {"outline", u.outline / 1000}, {"walls", u.walls / 1000},
-          {"bridges", u.bridges / 1000}, {"scale", u.scale / 1000}};
+  return {{"ring", u.ring / 1000},         {"bed", u.bed / 1000},         {"model", u.model / 1000},
+          {"null_wounds", u.nulls / 1000}, {"gap", u.gap / 1000},         {"outline", u.outline / 1000},
+          {"walls", u.walls / 1000},       {"bridges", u.bridges / 1000}, {"scale", u.scale / 1000}};
 }
 
 // How the volume changes when the drawn line moves out or in by its uncertainty.
@@ -97,18 +108,19 @@ double SmoothedRingSd(const Scene& scene, const std::vector<double>& smoothed, c
   return 1.4826 * *middle;
 }
 
-Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, const Findings& f, const Options& options,
-                  Flags& flags) {
+Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, const ModelChoice& model,
+                  const IntactSkin& intact, const Findings& f, const Options& options, Flags& flags) {
   const Attempt& a = choice.chosen;
   const double volume = f.net_mm3 + f.depths.proud_all_mm3, area = f.boundary.area_mm2;
   const SkinCovariance covariance = CovarianceOf(a.skin, a.ring, a.weights, options.ring_width_mm / 2);
-  const Alternatives models = CompareModels(a, bed, f.depths.deepest);
+  const Alternatives models = CompareModels(a, model, bed, f.depths.deepest);
   const double blocks_mm2 = std::sqrt(f.boundary.plane_area_mm2) * covariance.block_mm;
 
   VolumeParts u;
   u.ring = VolumeSd(a.skin, covariance, bed);
   u.bed = covariance.block_mean_sd_mm * blocks_mm2;
   u.model = models.volume_sd_mm3;
+  u.nulls = intact.Rms(model.model, 2).value_or(0) * f.boundary.area_mm2;
   u.gap = SdOf(f.net_mm3, choice.other_gap_volumes_mm3);
   u.outline = OutlinePart(scene, a.skin, options);
   u.walls = options.wall_sd_mm * f.boundary.perimeter_mm * f.depths.p95_mm;

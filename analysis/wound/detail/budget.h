@@ -26,8 +26,8 @@ struct Budget {
 };
 
 /// Values with standard uncertainties; adds flags where the volume is doubtful.
-Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, const Findings& findings,
-                  const Options& options, Flags& flags);
+Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, const ModelChoice& model,
+                  const IntactSkin& intact, const Findings& findings, const Options& options, Flags& flags);
 
 /// Robust sd of smoothed heights over the ring.
 double SmoothedRingSd(const Scene& scene, const std::vector<double>& smoothed, const Ring& ring);

@@ -24,6 +24,47 @@ std::optional<Attempt> Try(const Scene& scene, double gap_mm, const Options& opt
   return attempt;
 }
 
+// Rms over sectors of the mean error with which the rest of the ring foretells each.
+std::optional<double> SectorScore(const Attempt& attempt, SkinModel model) {
+  constexpr int kSectors = 12;
+  const Ring& ring = attempt.ring;
+  double squares = 0, count = 0;
+  for (int left_out = 0; left_out < kSectors; ++left_out) {
+    RingWeights kept = attempt.weights;
+    const auto is_out = [&](std::size_t k) { return static_cast<int>(ring.places[k].along * kSectors) == left_out; };
+    for (std::size_t k = 0; k < ring.points.size(); ++k) kept.weight[k] *= is_out(k) ? 0 : 1;
+    const Skin skin = FitSkin(model, ring.points, kept);
+    if (skin.fell_back) return std::nullopt;
+    double sum = 0, weight = 0;
+    for (std::size_t k = 0; k < ring.points.size(); ++k) {
+      if (!is_out(k)) continue;
+      sum += attempt.weights.weight[k] * (ring.points[k].z() - skin.Height(ring.points[k].x(), ring.points[k].y()));
+      weight += attempt.weights.weight[k];
+    }
+    if (weight <= 0) continue;
+    squares += sum * sum / (weight * weight);
+    ++count;
+  }
+  if (count < kSectors / 2) return std::nullopt;
+  return std::sqrt(squares / count);
+}
+
+// The ring with at most `most` points, for fits that are repeated many times.
+Attempt Thinned(const Attempt& attempt, std::size_t most) {
+  Attempt thin = attempt;
+  const std::size_t stride = (attempt.ring.points.size() + most - 1) / most;
+  if (stride <= 1) return thin;
+  thin.ring.points.clear();
+  thin.ring.places.clear();
+  thin.weights.weight.clear();
+  for (std::size_t k = 0; k < attempt.ring.points.size(); k += stride) {
+    thin.ring.points.push_back(attempt.ring.points[k]);
+    thin.ring.places.push_back(attempt.ring.places[k]);
+    thin.weights.weight.push_back(attempt.weights.weight[k]);
+  }
+  return thin;
+}
+
 bool HasTrend(const Attempt& attempt, const Options& options) {
   return std::abs(attempt.trend.step_mm) > options.radial_trend_mm && std::abs(attempt.trend.t) > kTrendT;
 }
@@ -59,6 +100,23 @@ Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, const Options& opt
   for (std::size_t next = at + 1; next < std::min(at + 3, options.gaps_mm.size()); ++next) {
     const auto attempt = Try(scene, options.gaps_mm[next], options);
     if (attempt) choice.other_gap_volumes_mm3.push_back(PrismSum(bed, HeightsAbove(bed, attempt->skin)));
+  }
+  return choice;
+}
+
+ModelChoice ChooseModel(const Attempt& attempt, const IntactSkin& intact) {
+  constexpr std::size_t kLeastNulls = 3;
+  constexpr double kBetter = 0.67, kFloor_mm = 0.01;
+  ModelChoice choice;
+  const bool by_nulls = intact.wounds.size() >= kLeastNulls;
+  choice.by = by_nulls ? "null wounds" : "sectors of the ring";
+  const Attempt thin = by_nulls ? Attempt{} : Thinned(attempt, 3000);
+  for (std::size_t m = 0; m < kSkinModels.size(); ++m) {
+    choice.score_mm[m] = by_nulls ? intact.Rms(m, intact.wounds.size()) : SectorScore(thin, kSkinModels[m]);
+    if (m == 0 || !choice.score_mm[m]) continue;
+    const auto& best = choice.score_mm[choice.model];
+    const double bar = choice.model == 0 ? kBetter : 1;
+    if (!best || *choice.score_mm[m] + kFloor_mm < bar * (*best + kFloor_mm)) choice.model = m;
   }
   return choice;
 }

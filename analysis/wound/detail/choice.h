@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/wound/detail/null_wound.h"
 #include "analysis/wound/detail/quantities.h"
 #include "analysis/wound/detail/report.h"
 #include "analysis/wound/detail/ring.h"
@@ -29,6 +30,17 @@ struct Choice {
 /// Tries the gaps outwards until the ring shows no radial trend. kMeasurementRefused when even the first ring is cut
 /// off.
 Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, const Options& options);
+
+/// Which model of the skin continues healthy skin best, and how that was found.
+struct ModelChoice {
+  std::size_t model = 0;                                           ///< of kSkinModels
+  std::string by;                                                  ///< "null wounds", "sectors of the ring"
+  std::array<std::optional<double>, kSkinModels.size()> score_mm;  ///< rms error of each; none where it does not fit
+};
+
+/// Compares the models on intact skin (three null wounds or more), else by leaving out sectors of the ring in turn.
+/// The usual model stays unless another is better by a third and by more than a hundredth of a millimetre.
+ModelChoice ChooseModel(const Attempt& attempt, const IntactSkin& intact);
 
 /// Refuses skin that cannot be continued (too steep, not smooth), and flags what is doubtful.
 Status CheckRing(const Choice& choice, const Options& options, Flags& flags);

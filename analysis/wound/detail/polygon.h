@@ -15,7 +15,8 @@ struct PolygonPlace {
   double along = 0;     ///< 0..1 of the perimeter, of the nearest point
 };
 
-/// Signed distance queries (what a measurement spends most of its time on: hence the prepared sides).
+/// Signed distance queries (what a measurement spends most of its time on: hence sides in runs of neighbours, of which
+/// most are too far away to be looked at).
 class PolygonField {
  public:
   explicit PolygonField(const Polygon& polygon);
@@ -26,7 +27,14 @@ class PolygonField {
   struct Side {
     double x, y, dx, dy, per_length2;  ///< from its first point; 1 / length^2, 0 for a side without length
   };
+  /// Consecutive sides with the circle and the box around them.
+  struct Run {
+    std::size_t first, last;
+    double x, y, radius;
+    double low_y, high_y, high_x;
+  };
   std::vector<Side> sides_;
+  std::vector<Run> runs_;
   std::vector<double> start_;  ///< arc length at each vertex, and the whole perimeter last
 };
 

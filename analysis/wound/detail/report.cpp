@@ -84,6 +84,7 @@ nlohmann::json ToJson(const Options& options) {
           {"gaps_mm", options.gaps_mm},
           {"ring_width_mm", options.ring_width_mm},
           {"radial_trend_mm", options.radial_trend_mm},
+          {"null_cell_mm", options.null_cell_mm},
           {"smoothing_mm", options.smoothing_mm},
           {"perimeter_step_mm", options.perimeter_step_mm},
           {"max_ring_slope_deg", options.max_ring_slope_deg},

@@ -168,4 +168,23 @@ Result<ScenePlus> BuildScene(const Surface& surface, const Outline& outline, con
   return plus;
 }
 
+Result<Scene> CoarseScene(const Surface& surface, const Outline& outline, const Scene& fine, double cell_mm,
+                          double reach_mm) {
+  auto patch = CutPatch(surface, outline.polygon_px, cell_mm, reach_mm);
+  if (!patch) return Fail(patch.error());
+  Scene scene;
+  scene.patch = *std::move(patch);
+  scene.frame = fine.frame;
+  scene.outline = Resample(fine.outline, cell_mm);
+  const std::vector<double> distance = SensorDistances(scene.patch, outline.polygon_px);
+  std::vector<std::uint8_t> outside(scene.patch.size()), seeds(scene.patch.size());
+  for (std::size_t c = 0; c < scene.patch.size(); ++c) {
+    outside[c] = distance[c] > 0 ? 1 : 0;
+    seeds[c] = distance[c] > 0 && distance[c] < 3 * scene.patch.cell_mm() ? 1 : 0;
+  }
+  scene.sheet = ConnectedSheet(scene.patch, seeds, outside);
+  Place(scene, scene.sheet);
+  return scene;
+}
+
 }  // namespace striae::wound

@@ -18,4 +18,8 @@ struct ScenePlus {
 /// Checks, cuts out, fills holes, finds the frame and lays the outline on the skin. Errors as Measure().
 Result<ScenePlus> BuildScene(const Surface& surface, const Outline& outline, const Options& options);
 
+/// The same frame and outline over cells of `cell_mm`, out to `reach_mm` from the outline: for looking at intact skin.
+Result<Scene> CoarseScene(const Surface& surface, const Outline& outline, const Scene& fine, double cell_mm,
+                          double reach_mm);
+
 }  // namespace striae::wound

@@ -77,6 +77,8 @@ std::string_view ToString(SkinModel model) {
       return "q";
     case SkinModel::kQuadricC4:
       return "q+c4";
+    case SkinModel::kQuadricSpline:
+      return "q+s";
   }
   return "";
 }
@@ -129,6 +131,7 @@ double Skin::Height(double u, double v) const {
     double p = pu;
     for (int j = 0; i + j <= order; ++j, p *= v) w += coefficients[k++] * p;
   }
+  if (spline) w += spline->At(u, v);
   return w * radius_mm;
 }
 
@@ -172,10 +175,10 @@ Skin FitSkin(SkinModel model, const std::vector<Eigen::Vector3d>& ring, const Ri
   Skin skin;
   skin.model = model;
   skin.radius_mm = RadiusOf(ring);
-  const bool stiff = model == SkinModel::kC2 || model == SkinModel::kQuadric;
+  const bool stiff = model != SkinModel::kC4 && model != SkinModel::kQuadricC4;
   skin.order = stiff ? 2 : 4;  // a quadratic on a quadric's residual only rounds it off
   auto points = Scaled(ring, 1 / skin.radius_mm);
-  if (model == SkinModel::kQuadric || model == SkinModel::kQuadricC4) {
+  if (model != SkinModel::kC2 && model != SkinModel::kC4) {
     // The ring has about 2 pi R times its width; a third of its radius is a fair width for counting patches.
     const double independent = 2.0 / (kIndependentPatch * kIndependentPatch);
     skin.quadric = FitQuadric(points, weights.weight, weights.noise_mm / skin.radius_mm, independent);
@@ -189,16 +192,20 @@ Skin FitSkin(SkinModel model, const std::vector<Eigen::Vector3d>& ring, const Ri
     if (skin.quadric) {
       for (auto& p : points) p.z() -= skin.quadric->At(p.x(), p.y()).value_or(0);
     } else {
-      skin.model = stiff ? SkinModel::kC2 : SkinModel::kC4;
+      if (model != SkinModel::kQuadricSpline) skin.model = stiff ? SkinModel::kC2 : SkinModel::kC4;
       skin.fell_back = true;
     }
   }
   LinearFit fit = FitPolynomial(points, weights.weight, skin.order);
-  double sum = 0, total = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     Eigen::VectorXd terms;
     Monomials(points[k].x(), points[k].y(), skin.order, terms);
-    const double r = points[k].z() - terms.dot(fit.coefficients);
+    points[k].z() -= terms.dot(fit.coefficients);
+  }
+  if (model == SkinModel::kQuadricSpline) skin.spline = FitSpline(points, weights.weight);
+  double sum = 0, total = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double r = points[k].z() - (skin.spline ? skin.spline->At(points[k].x(), points[k].y()) : 0);
     sum += weights.weight[k] * r * r;
     total += weights.weight[k];
   }

@@ -1,6 +1,7 @@
 // The virtual skin: the ring of healthy skin continued across the wound, as a height w over the wound's frame.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -8,11 +9,16 @@
 #include <Eigen/Core>
 
 #include "analysis/wound/detail/quadric.h"
+#include "analysis/wound/detail/spline.h"
 
 namespace striae::wound {
 
-/// c2: quadratic height; c4: quartic height; q: quadric in space; q+c4: quadric, then a quartic on its residual.
-enum class SkinModel { kC2, kC4, kQuadric, kQuadricC4 };
+/// c2: quadratic height; c4: quartic height; q: quadric in space; q+c4: quadric, then a quartic on its residual; q+s:
+/// quadric, then a smoothing spline on its residual.
+enum class SkinModel { kC2, kC4, kQuadric, kQuadricC4, kQuadricSpline };
+/// Those that compete for a wound, the usual one first.
+inline constexpr std::array<SkinModel, 5> kSkinModels = {SkinModel::kQuadricC4, SkinModel::kC4, SkinModel::kQuadric,
+                                                         SkinModel::kC2, SkinModel::kQuadricSpline};
 std::string_view ToString(SkinModel model);
 
 /// Wound frame: origin at the ring's centre, w towards the camera, lengths in mm.
@@ -31,7 +37,8 @@ class Skin {
  public:
   SkinModel model = SkinModel::kC4;
   double radius_mm = 1;            ///< coordinates are divided by it before anything else
-  std::optional<Quadric> quadric;  ///< the base of q+c4
+  std::optional<Quadric> quadric;  ///< the base of q, q+c4, q+s
+  std::optional<Spline> spline;    ///< on top of everything else; q+s only
   int order = 4;
   Eigen::VectorXd coefficients;    ///< of Terms(), in units of radius_mm
   Eigen::MatrixXd inverse_normal;  ///< inverse of the weighted normal matrix of the coefficients
