@@ -1,6 +1,7 @@
 // `striae` itself. The whole program needs two hundred libraries, and loading them takes longer than the phase of a
 // twelve-megapixel photograph. So the one command that is run most, a JPEG to a PLY, is served here, with the five that
-// it needs; anything else, any other option and any mistake on the command line goes to the whole program beside it.
+// it needs; the record's commands go to a program without those of the reconstruction, and anything else, any other
+// option and any mistake on the command line goes to the whole program beside it.
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -80,38 +81,58 @@ Status Serve(const Request& request, const std::vector<std::uint8_t>& bytes, dou
   reconstruct::ReconstructOptions settings;
   settings.distance_mm = request.distance_mm;
   settings.faces = request.faces;
-  auto result = reconstruct::Reconstruct(*std::move(photograph), *calibration, settings, Now);
+  auto result = reconstruct::ReconstructOnSensor(*std::move(photograph), *calibration, settings, Now);
   if (!result) return Fail(result.error(), request.image.string());
-  SayWhatItIsMadeOf(photograph_sha256, calibration_sha256, result->surface);
+  SayWhatItIsMadeOf(photograph_sha256, calibration_sha256, result->surface.comments);
   const double reconstructed = Now();
-  if (Status written = WritePly(result->surface, request.out); !written) return written;
+  if (Status written = WritePly([&](const PieceSink& sink) { return result->surface.EncodePly(sink); }, request.out,
+                                result->surface.FileBytes());
+      !written)
+    return written;
   result->seconds.insert(result->seconds.begin(), {"decode", decoded - start});
   result->seconds.emplace_back("write", Now() - reconstructed);
   result->seconds.emplace_back("total", Now() - start);
   Context context;
   context.json = request.json;
-  Announce(context, *result, {{"files", {request.out.string()}}}, request.out);
+  Announce(context, *result, {result->surface.points(), result->surface.faces()}, {{"files", {request.out.string()}}},
+           request.out);
   return {};
 }
 
-/// Becomes the whole program; returns only when that is not there.
-int Hand(char** argv) {
-  const fs::path whole = fs::read_symlink("/proc/self/exe").parent_path() / "striae-whole";
+/// The command's name, after the options that all commands share.
+std::string_view CommandOf(const std::vector<std::string_view>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!words[i].starts_with('-')) return words[i];
+    if (words[i] == "-C" || words[i] == "--user") ++i;
+  }
+  return {};
+}
+
+bool IsOfTheRecord(std::string_view command) {
+  return !command.empty() &&
+         std::string_view(STRIAE_RECORD_COMMANDS).find(" " + std::string(command) + " ") != std::string_view::npos;
+}
+
+/// Becomes the program of the record's commands or the whole one; returns only when that is not there.
+int Hand(const std::vector<std::string_view>& words, char** argv) {
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  if (IsOfTheRecord(CommandOf(words))) execv((folder / "striae-record").c_str(), argv);
+  const fs::path whole = folder / "striae-whole";
   execv(whole.c_str(), argv);
   std::cerr << "striae: " << whole.string() << " cannot be started (" << std::strerror(errno)
-            << "); install Striae again, both programs in one folder\n";
+            << "); install Striae again, all its programs in one folder\n";
   return kExitFailed;
 }
 
 int Run(int argc, char** argv) {
   const std::vector<std::string_view> words(argv + (argc > 0 ? 1 : 0), argv + argc);
   const auto request = Parse(words);
-  if (!request) return Hand(argv);
+  if (!request) return Hand(words, argv);
   const double start = Now();
   const auto bytes = ReadFile(request->image);
-  if (!bytes) return Hand(argv);
+  if (!bytes) return Hand(words, argv);
   const auto header = ReadImageHeader(*bytes);
-  if (!header || header->kind != ImageKind::kJpeg) return Hand(argv);
+  if (!header || header->kind != ImageKind::kJpeg) return Hand(words, argv);
   const Status served = Serve(*request, *bytes, start);
   return served ? kExitDone : ReportError(served.error());
 }

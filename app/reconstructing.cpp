@@ -12,9 +12,9 @@
 namespace striae::app {
 namespace {
 
-nlohmann::json ToJson(const reconstruct::Reconstruction& r) {
-  nlohmann::json document = {{"points", r.surface.size()},
-                             {"faces", r.surface.faces.size()},
+nlohmann::json ToJson(const reconstruct::ReconstructionReport& r, const SurfaceSize& size) {
+  nlohmann::json document = {{"points", size.points},
+                             {"faces", size.faces},
                              {"coverage", r.coverage},
                              {"carrier_period_px", r.carrier_period_px},
                              {"direction", ToString(r.direction)},
@@ -50,20 +50,20 @@ Result<Calibration> ReadCalibration(const std::filesystem::path& path, Sha256& s
   return calibration;
 }
 
-void SayWhatItIsMadeOf(const Sha256& photograph, const Sha256& calibration, Surface& surface) {
+void SayWhatItIsMadeOf(const Sha256& photograph, const Sha256& calibration, std::vector<std::string>& comments) {
   const std::string lines[] = {"striae " + std::string(StriaeVersion()), "photograph sha256 " + photograph.ToString(),
                                "calibration sha256 " + calibration.ToString()};
-  surface.comments.insert(surface.comments.begin(), std::begin(lines), std::end(lines));
+  comments.insert(comments.begin(), std::begin(lines), std::end(lines));
 }
 
-void Announce(Context& context, const reconstruct::Reconstruction& result, const nlohmann::json& more,
-              const std::filesystem::path& out) {
+void Announce(Context& context, const reconstruct::ReconstructionReport& result, const SurfaceSize& size,
+              const nlohmann::json& more, const std::filesystem::path& out) {
   for (const std::string& warning : result.warnings) context.Note("warning: " + warning);
-  nlohmann::json document = ToJson(result);
+  nlohmann::json document = ToJson(result, size);
   document.update(more);
   context.Output(document,
                  fmt::format("{}: {} points, {:.1f} % of the lit field, carrier {:.2f} px, stripe order from {}",
-                             out.string(), result.surface.size(), 100 * result.coverage, result.carrier_period_px,
+                             out.string(), size.points, 100 * result.coverage, result.carrier_period_px,
                              ToString(result.regions.front().source)));
 }
 

@@ -1,7 +1,10 @@
 // What both ways of running `striae reconstruct` share: the whole command, and the short way of app/front.cpp.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -9,7 +12,6 @@
 #include "core/calibration.h"
 #include "core/hex.h"
 #include "core/result.h"
-#include "core/surface.h"
 #include "reconstruct/reconstruct.h"
 
 namespace striae::app {
@@ -19,11 +21,15 @@ double Now();
 
 Result<Calibration> ReadCalibration(const std::filesystem::path& path, Sha256& sha256);
 
-/// Provenance at the head of the surface's comments.
-void SayWhatItIsMadeOf(const Sha256& photograph, const Sha256& calibration, Surface& surface);
+/// Provenance at the head of a surface's comments.
+void SayWhatItIsMadeOf(const Sha256& photograph, const Sha256& calibration, std::vector<std::string>& comments);
+
+struct SurfaceSize {
+  std::size_t points = 0, faces = 0;
+};
 
 /// Warnings to the terminal, and the result: CONTRACT's JSON with `more` merged into it.
-void Announce(Context& context, const reconstruct::Reconstruction& result, const nlohmann::json& more,
-              const std::filesystem::path& out);
+void Announce(Context& context, const reconstruct::ReconstructionReport& result, const SurfaceSize& size,
+              const nlohmann::json& more, const std::filesystem::path& out);
 
 }  // namespace striae::app

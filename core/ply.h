@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "core/ply_layout.h"
 #include "core/result.h"
 #include "core/surface.h"
 
@@ -15,9 +15,9 @@ namespace striae {
 /// where the surface knows it), then faces. The sensor's size and the surface's comments go into comment lines.
 std::vector<std::uint8_t> EncodePly(const Surface& surface);
 
-/// The same bytes in order, in pieces of about a megabyte: the next one is encoded on a second thread while `sink` has
-/// this one, and nothing as large as the file is ever in memory. False as soon as `sink` is.
-bool EncodePly(const Surface& surface, const std::function<bool(std::span<const std::uint8_t>)>& sink);
+/// The same bytes in order, in pieces of about a megabyte, as SendInOrder: the next one is encoded while `sink` has
+/// this one. False as soon as `sink` is.
+bool EncodePly(const Surface& surface, const PieceSink& sink);
 
 /// Reads any binary little-endian or ascii PLY with x, y, z; the other properties are optional and of any scalar
 /// type. Without "striae sensor" comment the sensor size is the largest col and row + 1. kBadFile when truncated,

@@ -1,47 +1,22 @@
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <bit>
-#include <cstring>
 #include <string>
 #include <thread>
 
 #include "core/detail/ply_header.h"
 #include "core/ply.h"
+#include "core/ply_layout.h"
 
 namespace striae {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "values are copied as they stand");
-static_assert(sizeof(Rgb8) == 3 && sizeof(std::array<std::uint32_t, 3>) == 12, "copied as they stand");
-
-constexpr std::size_t kVertexBytes = 3 * 4 + 3 + 4 + 2 * 2, kUncertaintyBytes = 4;
-constexpr std::size_t kFaceBytes = 1 + 3 * 4;
-
-template <typename T>
-std::uint8_t* Put(std::uint8_t* out, const T& value) {
-  std::memcpy(out, &value, sizeof value);
-  return out + sizeof value;
-}
 
 bool HasUncertainty(const Surface& surface) {
   return surface.size() > 0 && surface.uncertainty_mm.size() == surface.size();
 }
 
-std::string HeaderOf(const Surface& surface) {
-  std::string header = "ply\nformat binary_little_endian 1.0\n";
-  header += "comment " + std::string(detail::kSensorComment) + std::to_string(surface.sensor_width_px) + " " +
-            std::to_string(surface.sensor_height_px) + "\n";
-  header += "comment units mm, camera frame: x right, y down, z forward\n";
-  for (const std::string& comment : surface.comments) header += "comment " + comment + "\n";
-  header += "element vertex " + std::to_string(surface.size()) + "\n";
-  header +=
-      "property float x\nproperty float y\nproperty float z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-      "property float quality\nproperty ushort col\nproperty ushort row\n";
-  if (HasUncertainty(surface)) header += "property float uncertainty\n";
-  header += "element face " + std::to_string(surface.faces.size()) + "\n";
-  return header + "property list uchar uint vertex_indices\nend_header\n";
+PlySummary SummaryOf(const Surface& surface) {
+  return {surface.sensor_width_px, surface.sensor_height_px, surface.size(),
+          surface.faces.size(),    HasUncertainty(surface),  surface.comments};
 }
 
 /// The file cut into pieces that can be encoded one by one: the header, then so many vertices or faces each.
@@ -49,14 +24,14 @@ class PlyPieces {
  public:
   explicit PlyPieces(const Surface& surface)
       : surface_(surface),
-        header_(HeaderOf(surface)),
-        vertex_bytes_(kVertexBytes + (HasUncertainty(surface) ? kUncertaintyBytes : 0)),
+        header_(PlyHeaderOf(SummaryOf(surface))),
+        vertex_bytes_(kPlyVertexBytes + (HasUncertainty(surface) ? kPlyUncertaintyBytes : 0)),
         vertex_pieces_(Pieces(surface.size())),
         face_pieces_(Pieces(surface.faces.size())) {}
 
   [[nodiscard]] int count() const { return static_cast<int>(1 + vertex_pieces_ + face_pieces_); }
   [[nodiscard]] std::size_t TotalBytes() const {
-    return header_.size() + surface_.size() * vertex_bytes_ + surface_.faces.size() * kFaceBytes;
+    return header_.size() + surface_.size() * vertex_bytes_ + surface_.faces.size() * kPlyFaceBytes;
   }
   void Encode(int index, Buffer<std::uint8_t>& out) const {
     const auto piece = static_cast<std::size_t>(index);
@@ -70,29 +45,32 @@ class PlyPieces {
   }
 
  private:
-  static constexpr std::size_t kElements = 65536;
+  static constexpr std::size_t kElements = 32768;
   static std::size_t Pieces(std::size_t elements) { return (elements + kElements - 1) / kElements; }
 
   void EncodeVertices(std::size_t first, Buffer<std::uint8_t>& bytes) const {
     const std::size_t last = std::min(first + kElements, surface_.size());
-    const bool gridded = surface_.HasGrid(), doubted = vertex_bytes_ > kVertexBytes;
+    const bool gridded = surface_.HasGrid(), doubted = vertex_bytes_ > kPlyVertexBytes;
     bytes.resize((last - first) * vertex_bytes_);
     std::uint8_t* out = bytes.data();
+    PlyVertex vertex;
     for (std::size_t i = first; i < last; ++i) {
-      const Eigen::Vector3f& p = surface_.point_in_camera[i];
-      out = Put(Put(Put(out, p.x()), p.y()), p.z());
-      out = Put(out, surface_.colour[i]);
-      out = Put(out, surface_.quality[i]);
-      out = Put(out, gridded ? surface_.col[i] : std::uint16_t{0});
-      out = Put(out, gridded ? surface_.row[i] : std::uint16_t{0});
-      if (doubted) out = Put(out, surface_.uncertainty_mm[i]);
+      vertex.point_in_camera = surface_.point_in_camera[i];
+      vertex.colour = surface_.colour[i];
+      vertex.quality = surface_.quality[i];
+      if (gridded) {
+        vertex.col = surface_.col[i];
+        vertex.row = surface_.row[i];
+      }
+      if (doubted) vertex.uncertainty_mm = surface_.uncertainty_mm[i];
+      out = PutPlyVertex(out, vertex, doubted);
     }
   }
   void EncodeFaces(std::size_t first, Buffer<std::uint8_t>& bytes) const {
     const std::size_t last = std::min(first + kElements, surface_.faces.size());
-    bytes.resize((last - first) * kFaceBytes);
+    bytes.resize((last - first) * kPlyFaceBytes);
     std::uint8_t* out = bytes.data();
-    for (std::size_t i = first; i < last; ++i) out = Put(Put(out, std::uint8_t{3}), surface_.faces[i]);
+    for (std::size_t i = first; i < last; ++i) out = PutPlyFace(out, surface_.faces[i]);
   }
 
   const Surface& surface_;
@@ -101,6 +79,43 @@ class PlyPieces {
 };
 
 }  // namespace
+
+std::string PlyHeaderOf(const PlySummary& summary) {
+  std::string header = "ply\nformat binary_little_endian 1.0\n";
+  header += "comment " + std::string(detail::kSensorComment) + std::to_string(summary.sensor_width_px) + " " +
+            std::to_string(summary.sensor_height_px) + "\n";
+  header += "comment units mm, camera frame: x right, y down, z forward\n";
+  for (const std::string& comment : summary.comments) header += "comment " + comment + "\n";
+  header += "element vertex " + std::to_string(summary.vertices) + "\n";
+  header +=
+      "property float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property float quality\nproperty ushort col\nproperty ushort row\n";
+  if (summary.uncertainty) header += "property float uncertainty\n";
+  header += "element face " + std::to_string(summary.faces) + "\n";
+  return header + "property list uchar uint vertex_indices\nend_header\n";
+}
+
+bool SendInOrder(int count, int threads, const std::function<void(int, Buffer<std::uint8_t>&)>& encode,
+                 const PieceSink& sink) {
+  std::atomic<int> next{0}, turn{0};
+  std::atomic<bool> good{true};
+  const auto work = [&] {
+    Buffer<std::uint8_t> piece;
+    for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1)) {
+      if (good.load()) encode(i, piece);
+      for (int now = turn.load(); now != i; now = turn.load()) turn.wait(now);
+      if (good.load() && !sink(piece)) good.store(false);
+      turn.store(i + 1);
+      turn.notify_all();
+    }
+  };
+  std::vector<std::thread> others;
+  for (int k = 1; k < std::min(threads, count); ++k) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
+  return good.load();
+}
 
 std::vector<std::uint8_t> EncodePly(const Surface& surface) {
   const PlyPieces pieces(surface);
@@ -113,38 +128,12 @@ std::vector<std::uint8_t> EncodePly(const Surface& surface) {
   return bytes;
 }
 
-bool EncodePly(const Surface& surface, const std::function<bool(std::span<const std::uint8_t>)>& sink) {
+bool EncodePly(const Surface& surface, const PieceSink& sink) {
   const PlyPieces pieces(surface);
   const int count = pieces.count();
-  if (count <= 2) {  // a small surface is not worth a thread
-    Buffer<std::uint8_t> buffer;
-    for (int i = 0; i < count; ++i) {
-      pieces.Encode(i, buffer);
-      if (!sink(buffer)) return false;
-    }
-    return true;
-  }
-  constexpr int kStopped = -1;
-  std::array<Buffer<std::uint8_t>, 2> buffers;
-  std::atomic<int> encoded{0}, taken{0};
-  std::thread encoder([&] {
-    for (int i = 0; i < count; ++i) {
-      for (int now = taken.load(); now != kStopped && i - now >= 2; now = taken.load()) taken.wait(now);
-      if (taken.load() == kStopped) return;
-      pieces.Encode(i, buffers[static_cast<std::size_t>(i % 2)]);
-      encoded.store(i + 1);
-      encoded.notify_one();
-    }
-  });
-  bool good = true;
-  for (int i = 0; i < count && good; ++i) {
-    for (int now = encoded.load(); now <= i; now = encoded.load()) encoded.wait(now);
-    good = sink(buffers[static_cast<std::size_t>(i % 2)]);
-    taken.store(good ? i + 1 : kStopped);
-    taken.notify_one();
-  }
-  encoder.join();
-  return good;
+  const int threads = count > 2 ? 2 : 1;  // a small surface is not worth a thread
+  return SendInOrder(
+      count, threads, [&](int index, Buffer<std::uint8_t>& out) { pieces.Encode(index, out); }, sink);
 }
 
 }  // namespace striae

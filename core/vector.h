@@ -5,7 +5,7 @@
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 /// Before a function: compiled for AVX2 and FMA as well as for any x86-64.
-#define STRIAE_VECTORISED __attribute__((target_clones("arch=x86-64-v3", "default")))
+#define STRIAE_VECTORISED __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define STRIAE_VECTORISED
 #endif

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "reconstruct/detail/extent.h"
+#include "reconstruct/detail/line_block.h"
 #include "reconstruct/detail/parallel.h"
 
 namespace striae::reconstruct {
@@ -129,7 +131,7 @@ ImageRgb ColourWithoutStripes(ImageRgb photograph, const ImageF& order, StripeDi
     return out;
   }
   // Neighbouring columns go down together: rows are read as they lie in memory, and what is written lies close by.
-  constexpr int kColumns = 64;
+  constexpr int kColumns = 128, kAhead = 6;
   detail::ParallelBlocks(
       width,
       [&](int, int first, int last) {
@@ -137,10 +139,15 @@ ImageRgb ColourWithoutStripes(ImageRgb photograph, const ImageF& order, StripeDi
         for (int col = first; col < last; ++col) {
           fillers[static_cast<std::size_t>(col - first)].Start(out.Row(0) + col, width);
         }
+        detail::Extent before;  // what has no order in this row and had none in the row before is as it was
         for (int row = 0; row < height; ++row) {
-          const float* orders = order.Row(row);
-          for (int col = first; col < last; ++col)
-            fillers[static_cast<std::size_t>(col - first)].Take(row, orders[col]);
+          const float* orders = order.Row(row) + first;
+          detail::PrefetchRow(order, row + kAhead, first, last);
+          const detail::Extent extent = detail::ExtentOf(orders, last - first);
+          const int from = std::min(extent.first, before.empty() ? extent.first : before.first);
+          const int to = std::max(extent.last, before.last);
+          for (int k = from; k < to; ++k) fillers[static_cast<std::size_t>(k)].Take(row, orders[k]);
+          before = extent;
         }
         for (LineFiller& filler : fillers) filler.End(height);
       },

@@ -24,19 +24,27 @@ using detail::LineLayout;
 /// Second differences of the phase beyond this (rad) are a step: a smooth surface stays below a tenth of it.
 constexpr float kStep_rad = 0.7F;
 
+/// Light to be read, and whether its memory may be written over.
+struct Source {
+  const ImageF& luminance;
+  bool linear;
+  float saturation_level;
+  ImageF* spare;  ///< the luminance itself, or nothing
+};
+
 struct Chosen {
   StripeDirection direction;
   LineLayout layout;  ///< of the lines across the stripes
   Carrier carrier;
 };
 
-Result<Chosen> ChooseDirection(const Photograph& photograph, std::optional<StripeDirection> wanted) {
+Result<Chosen> ChooseDirection(const Source& source, std::optional<StripeDirection> wanted) {
   std::optional<Chosen> best;
   for (const auto direction : {StripeDirection::kHorizontal, StripeDirection::kVertical}) {
     if (wanted.value_or(direction) != direction) continue;
-    const LineLayout layout(photograph.luminance.width(), photograph.luminance.height(),
+    const LineLayout layout(source.luminance.width(), source.luminance.height(),
                             direction == StripeDirection::kHorizontal);
-    const auto carrier = detail::FindCarrier(detail::SampleLines(photograph.luminance, layout, photograph.linear));
+    const auto carrier = detail::FindCarrier(detail::SampleLines(source.luminance, layout, source.linear));
     if (!carrier || (best && best->carrier.prominence >= carrier->prominence)) continue;
     best = Chosen{direction, layout, *carrier};
   }
@@ -68,30 +76,35 @@ struct BlockMemory {
 /// Reads blocks of lines as linear light, smoothed along the stripes.
 class LightReader {
  public:
-  LightReader(const Photograph& photograph, const LineLayout& layout, double sigma_px)
-      : photograph_(photograph), layout_(layout), kernel_(detail::GaussianKernel(sigma_px)) {}
+  LightReader(const Source& source, const LineLayout& layout, double sigma_px)
+      : source_(source), layout_(layout), kernel_(detail::GaussianKernel(sigma_px)) {}
+
+  /// Nothing is read but the block's own lines: they may be written over as soon as they are read.
+  [[nodiscard]] bool WithoutHalo() const { return kernel_.size() == 1; }
+
+  [[nodiscard]] bool linear() const { return source_.linear; }
 
   /// Returns the number of saturated pixels.
   std::size_t Read(int block, BlockMemory& m) const {
     const int halo = static_cast<int>(kernel_.size()) - 1;
     if (halo == 0) {  // nothing to smooth: read in place
-      layout_.LoadWithHalo(photograph_.luminance, block, 0, m.light.data());
-      const std::size_t saturated = detail::CountAtLeast(m.light.data(), layout_.length(), 0, layout_.LanesOf(block),
-                                                         photograph_.saturation_level);
-      if (!photograph_.linear) detail::DecodeSrgb(m.light.data(), m.light.size());
+      layout_.LoadWithHalo(source_.luminance, block, 0, m.light.data());
+      const std::size_t saturated =
+          detail::CountAtLeast(m.light.data(), layout_.length(), 0, layout_.LanesOf(block), source_.saturation_level);
+      if (!source_.linear) detail::DecodeSrgb(m.light.data(), m.light.size());
       return saturated;
     }
     m.with_halo.resize(static_cast<std::size_t>(layout_.length()) * static_cast<std::size_t>(kLanes + 2 * halo));
-    layout_.LoadWithHalo(photograph_.luminance, block, halo, m.with_halo.data());
+    layout_.LoadWithHalo(source_.luminance, block, halo, m.with_halo.data());
     const std::size_t saturated = detail::CountAtLeast(m.with_halo.data(), layout_.length(), halo,
-                                                       layout_.LanesOf(block), photograph_.saturation_level);
-    if (!photograph_.linear) detail::DecodeSrgb(m.with_halo.data(), m.with_halo.size());
+                                                       layout_.LanesOf(block), source_.saturation_level);
+    if (!source_.linear) detail::DecodeSrgb(m.with_halo.data(), m.with_halo.size());
     detail::SmoothAcross(m.with_halo.data(), layout_.length(), kernel_, m.light.data());
     return saturated;
   }
 
  private:
-  const Photograph& photograph_;
+  const Source& source_;
   const LineLayout& layout_;
   std::vector<float> kernel_;
 };
@@ -114,7 +127,8 @@ float WellLitModulation(const LineAnalysis& analysis, const std::vector<Lanes<fl
   constexpr std::size_t kStep = 3;  // of the sampled pixels
   std::vector<float> modulations;
   for (const Lanes<float>& light : blocks) {
-    analysis(light.data(), memory.Signal(), memory.scratch);
+    analysis.Background(light.data(), memory.background.data(), memory.scratch);
+    analysis.Stripes(light.data(), memory.Signal(), memory.scratch);
     for (std::size_t i = 0; i < light.size(); i += kStep) {
       if (memory.amplitude[i] > 3 * least_amplitude)
         modulations.push_back(memory.amplitude[i] / std::max(memory.background[i], 1e-6F));
@@ -133,7 +147,10 @@ detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const LightReader& rea
   const std::vector<Lanes<float>> blocks = SampleBlocks(reader, layout, memory);
   result.noise = analysis.Noise(blocks);
   detail::MaskLimits limits;
-  limits.least_amplitude = static_cast<float>(std::max(result.noise / options.largest_phase_noise, 1e-5));
+  // Eight bits of sRGB resolve no less near black; noise alone may be smaller there.
+  constexpr double kStepNearBlack = 1 / (255 * 12.92);
+  limits.least_amplitude =
+      static_cast<float>(std::max(result.noise / options.largest_phase_noise, reader.linear() ? 1e-5 : kStepNearBlack));
   limits.least_modulation = std::max(static_cast<float>(options.least_modulation),
                                      static_cast<float>(options.least_modulation_share) *
                                          WellLitModulation(analysis, blocks, limits.least_amplitude, memory));
@@ -152,7 +169,14 @@ struct Plateau {
 
 void AnalyseBlock(const LineAnalysis& analysis, const detail::MaskLimits& limits, const Plateau& plateau, int length,
                   BlockMemory& m) {
-  analysis(m.light.data(), m.Signal(), m.scratch);
+  analysis.Background(m.light.data(), m.background.data(), m.scratch);
+  if (analysis.Unlit(m.light.data(), limits.least_amplitude, limits.least_modulation)) {
+    std::fill(m.phase.begin(), m.phase.end(), 0.0F);
+    std::fill(m.amplitude.begin(), m.amplitude.end(), 0.0F);
+    std::fill(m.mask.begin(), m.mask.end(), std::uint8_t{0});
+    return;
+  }
+  analysis.Stripes(m.light.data(), m.Signal(), m.scratch);
   const int groups = (length + plateau.group - 1) / plateau.group;
   m.groups.resize(BlockMemory::Count(groups));
   m.maximum.resize(BlockMemory::Count(groups + 2 * plateau.reach));
@@ -190,16 +214,14 @@ void AnalyseBlocks(const LightReader& reader, const LineLayout& layout, const Li
                            static_cast<double>(wrapped.size());
 }
 
-}  // namespace
-
-Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOptions& options) {
+Result<PhaseResult> Measure(const Source& source, const PhaseOptions& options) {
   constexpr int kSmallest_px = 32;
-  const int width = photograph.luminance.width(), height = photograph.luminance.height();
+  const int width = source.luminance.width(), height = source.luminance.height();
   if (width < kSmallest_px || height < kSmallest_px) {
     return Fail(ErrorCode::kBadImage, "the photograph is only " + std::to_string(width) + " x " +
                                           std::to_string(height) + " pixels; at least 32 x 32 are needed");
   }
-  const auto chosen = ChooseDirection(photograph, options.direction);
+  const auto chosen = ChooseDirection(source, options.direction);
   if (!chosen) return Fail(chosen.error());
 
   PhaseResult result;
@@ -207,12 +229,16 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
   result.carrier_period_px = chosen->carrier.period_px;
   result.carrier_prominence = chosen->carrier.prominence;
   const LineAnalysis analysis(chosen->layout.length(), result.carrier_period_px, options.window_half_width);
-  const LightReader reader(photograph, chosen->layout, options.smoothing_along * result.carrier_period_px);
+  const LightReader reader(source, chosen->layout, options.smoothing_along * result.carrier_period_px);
   const auto limits = LimitsOf(analysis, reader, chosen->layout, options, result);
 
-  ImageF wrapped = ImageF::Unset(width, height);
+  const bool in_place = source.spare != nullptr && reader.WithoutHalo();
+  ImageF own = in_place ? ImageF() : ImageF::Unset(width, height);
+  ImageF& wrapped = in_place ? *source.spare : own;
   for (ImageF* image : {&result.amplitude, &result.background}) *image = ImageF::Unset(width, height);
   result.mask = Mask::Unset(width, height);
+  for (ImageF* image : {&wrapped, &result.amplitude, &result.background}) detail::TouchPages(*image);
+  detail::TouchPages(result.mask);
   AnalyseBlocks(reader, chosen->layout, analysis, limits, wrapped, result);
 
   detail::CutSteps(wrapped, result.mask, kStep_rad);
@@ -223,6 +249,17 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
   }
   result.unwrapped = Unwrap(std::move(wrapped), result.mask);
   return result;
+}
+
+}  // namespace
+
+Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOptions& options) {
+  return Measure({photograph.luminance, photograph.linear, photograph.saturation_level, nullptr}, options);
+}
+
+Result<PhaseResult> MeasurePhase(Photograph&& photograph, const PhaseOptions& options) {
+  ImageF luminance = std::move(photograph.luminance);
+  return Measure({luminance, photograph.linear, photograph.saturation_level, &luminance}, options);
 }
 
 }  // namespace striae::reconstruct

@@ -57,5 +57,7 @@ struct PhaseResult {
 
 /// kBadImage for a photograph too small, kNoCarrier when no stripes are found or none are bright enough to carry phase.
 Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOptions& options = {});
+/// The same in the memory of the photograph's luminance, which is gone afterwards; its colour stays.
+Result<PhaseResult> MeasurePhase(Photograph&& photograph, const PhaseOptions& options = {});
 
 }  // namespace striae::reconstruct

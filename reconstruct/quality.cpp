@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+
+#include "reconstruct/detail/parallel.h"
 
 namespace striae::reconstruct {
 namespace {
@@ -45,6 +48,7 @@ class Probe {
       : length_(static_cast<int>(std::lround(kTilePeriods * period_px))),
         cosine_(kFrequencies * size()),
         sine_(cosine_) {
+    for (std::size_t i = 0; i < light_.size(); ++i) light_[i] = std::pow(static_cast<float>(i) / 255, 2.2F);
     for (std::size_t f = 0; f < kFrequencies; ++f) {
       for (std::size_t x = 0; x < size(); ++x) {
         const double window = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (static_cast<double>(x) + 0.5) / length_);
@@ -56,6 +60,7 @@ class Probe {
   }
   [[nodiscard]] int length() const { return length_; }
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(length_); }
+  [[nodiscard]] float LightOf(std::uint8_t encoded) const { return light_[encoded]; }
 
   void AddPower(const std::vector<float>& signal, Spectrum& power) const {
     for (std::size_t f = 0; f < kFrequencies; ++f) {
@@ -72,6 +77,7 @@ class Probe {
  private:
   int length_;
   std::vector<float> cosine_, sine_;
+  std::array<float, 256> light_;  ///< of an encoded value
 };
 
 /// Power of a tile over its lines; false when too much of it is not measured.
@@ -85,9 +91,9 @@ bool TilePower(const Photograph& photograph, const PhaseResult& phase, const Lin
     if (at >= lines.count()) return false;
     for (int i = 0; i < probe.length(); ++i) {
       if (lines.At(phase.mask, at, x + i) == 0) return false;
-      const float value = lines.At(photograph.luminance, at, x + i);
-      // The background is linear light: its encoding is compared with the encoded luminance.
-      const float light = photograph.linear ? value : std::pow(value, 2.2F);
+      const Rgb8 pixel = lines.At(photograph.colour, at, x + i);
+      const float light =
+          0.2126F * probe.LightOf(pixel.r) + 0.7152F * probe.LightOf(pixel.g) + 0.0722F * probe.LightOf(pixel.b);
       signal[static_cast<std::size_t>(i)] = light / std::max(lines.At(phase.background, at, x + i), 1e-4F) - 1;
     }
     probe.AddPower(signal, power);
@@ -134,16 +140,29 @@ PhotographQuality JudgePhotograph(const Photograph& photograph, const PhaseResul
   quality.modulation = WellLitModulation(phase);
   const Lines lines(phase);
   const Probe probe(phase.carrier_period_px);
+  const int step = std::max(32, lines.count() / 16);  // tiles here and there tell as much as all would
+  struct OfLine {
+    std::size_t tiles = 0;
+    std::vector<double> seconds;
+  };
+  std::vector<OfLine> found(static_cast<std::size_t>((lines.count() + step - 1) / step));
+  detail::ParallelBlocks(
+      static_cast<int>(found.size()),
+      [&](int, int first, int) {
+        OfLine& here = found[static_cast<std::size_t>(first)];
+        Spectrum power;
+        for (int x = 0; x + probe.length() <= lines.length(); x += probe.length()) {
+          if (!TilePower(photograph, phase, lines, probe, first * step, x, power)) continue;
+          ++here.tiles;
+          if (const double second = SecondPattern(power); second > 0) here.seconds.push_back(second);
+        }
+      },
+      1);
   std::size_t tiles = 0;
   std::vector<double> seconds;
-  Spectrum power;
-  const int step = std::max(32, lines.count() / 16);  // tiles here and there tell as much as all would
-  for (int line = 0; line < lines.count(); line += step) {
-    for (int x = 0; x + probe.length() <= lines.length(); x += probe.length()) {
-      if (!TilePower(photograph, phase, lines, probe, line, x, power)) continue;
-      ++tiles;
-      if (const double second = SecondPattern(power); second > 0) seconds.push_back(second);
-    }
+  for (const OfLine& line : found) {
+    tiles += line.tiles;
+    seconds.insert(seconds.end(), line.seconds.begin(), line.seconds.end());
   }
   if (tiles > 0) quality.second_pattern_share = static_cast<double>(seconds.size()) / static_cast<double>(tiles);
   if (!seconds.empty()) {

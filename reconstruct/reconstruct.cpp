@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -11,7 +12,8 @@
 #include "reconstruct/colour.h"
 #include "reconstruct/detail/lateral.h"
 #include "reconstruct/detail/parallel.h"
-#include "reconstruct/detail/surface_builder.h"
+#include "reconstruct/detail/sensor_grid.h"
+#include "reconstruct/detail/triangulate.h"
 #include "reconstruct/detail/uncertainty.h"
 #include "reconstruct/quality.h"
 
@@ -89,15 +91,16 @@ std::size_t LitField(const PhaseResult& phase) {
   const auto middle = amplitudes.begin() + static_cast<long>(amplitudes.size() / 2);
   std::nth_element(amplitudes.begin(), middle, amplitudes.end());
   const float lit = 0.1F * *middle;
-  std::vector<std::size_t> in_row(static_cast<std::size_t>(phase.mask.height()), 0);
-  detail::ParallelLines(phase.mask.height(), [&](int row) {
-    in_row[static_cast<std::size_t>(row)] =
-        CountLit(phase.amplitude.Row(row), phase.background.Row(row), phase.mask.width(), lit);
+  constexpr int kEvery = 4;  // rows: the field has thousands of them
+  std::vector<std::size_t> in_row(static_cast<std::size_t>((phase.mask.height() + kEvery - 1) / kEvery), 0);
+  detail::ParallelLines(static_cast<int>(in_row.size()), [&](int k) {
+    in_row[static_cast<std::size_t>(k)] =
+        CountLit(phase.amplitude.Row(k * kEvery), phase.background.Row(k * kEvery), phase.mask.width(), lit);
   });
-  return std::accumulate(in_row.begin(), in_row.end(), std::size_t{0});
+  return kEvery * std::accumulate(in_row.begin(), in_row.end(), std::size_t{0});
 }
 
-void CollectWarnings(double saturated_share, Reconstruction& out) {
+void CollectWarnings(double saturated_share, SensorReconstruction& out) {
   constexpr double kSaturated = 0.002, kNoteworthy = 0.02;
   if (saturated_share > kSaturated) {
     out.warnings.push_back(std::to_string(100 * saturated_share).substr(0, 4) +
@@ -114,7 +117,7 @@ void CollectWarnings(double saturated_share, Reconstruction& out) {
 
 /// The order of every pixel, and whatever is said of the photograph as a whole.
 ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibration& calibration,
-               const ReconstructOptions& options, Reconstruction& out) {
+               const ReconstructOptions& options, SensorReconstruction& out) {
   out.carrier_period_px = phase.carrier_period_px;
   out.direction = phase.direction;
   out.warnings = JudgePhotograph(photograph, phase).warnings;
@@ -130,14 +133,14 @@ ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibrati
 
 }  // namespace
 
-Result<Reconstruction> Reconstruct(Photograph photograph, const Calibration& calibration,
-                                   const ReconstructOptions& options, Clock clock) {
+Result<SensorReconstruction> ReconstructOnSensor(Photograph photograph, const Calibration& calibration,
+                                                 const ReconstructOptions& options, Clock clock) {
   if (const Status fit = CheckFit(photograph, calibration); !fit) return Fail(fit.error());
-  Reconstruction out;
+  SensorReconstruction out;
   Stages stages(clock, out.seconds);
   PhaseOptions phase_options = options.phase;
   phase_options.direction = calibration.direction;
-  auto phase = MeasurePhase(photograph, phase_options);
+  auto phase = MeasurePhase(std::move(photograph), phase_options);
   if (!phase) return Fail(phase.error());
   stages.Done("phase");
 
@@ -145,10 +148,9 @@ Result<Reconstruction> Reconstruct(Photograph photograph, const Calibration& cal
   const std::size_t field = LitField(*phase);
   phase->unwrapped = {};  // an image of this size is 50 MB: what is done with makes room
   phase->mask = {};
-  photograph.luminance = {};
   stages.Done("order");
 
-  detail::PointImages images;
+  PointImages images;
   images.colour = ColourWithoutStripes(std::move(photograph.colour), order, phase->direction);
   stages.Done("colour");
 
@@ -157,21 +159,33 @@ Result<Reconstruction> Reconstruct(Photograph photograph, const Calibration& cal
   images.uncertainty = std::move(phase->amplitude);
   images.modulation = std::move(phase->background);
   const double slack_mm = options.outside_working_share * (calibration.near_mm + calibration.far_mm) / 2;
-  const detail::RayTable rays(calibration.camera, order.width(), order.height());
+  detail::RayTable rays(calibration.camera, order.width(), order.height());
   images.depth = detail::Triangulate(std::move(order), calibration, rays, calibration.near_mm - slack_mm,
                                      calibration.far_mm + slack_mm, images.uncertainty);
   stages.Done("triangulation");
-  out.surface = detail::BuildSurface(std::move(images), calibration, rays, options.faces);
+  out.surface = SensorSurface(
+      std::make_unique<SensorSurface::Grid>(std::move(images), calibration.camera, std::move(rays), options.faces));
   stages.Done("mesh");
-  if (out.surface.size() == 0) {
+  if (out.surface.points() == 0) {
     return Fail(ErrorCode::kMeasurementRefused, "no point lies within the working distance of " +
                                                     std::to_string(std::lround(calibration.near_mm)) + " to " +
                                                     std::to_string(std::lround(calibration.far_mm)) +
                                                     " mm; check the distance and that the calibration is this rig's");
   }
   out.coverage =
-      std::min(1.0, static_cast<double>(out.surface.size()) / static_cast<double>(std::max<std::size_t>(1, field)));
+      std::min(1.0, static_cast<double>(out.surface.points()) / static_cast<double>(std::max<std::size_t>(1, field)));
   CollectWarnings(phase->saturated_share, out);
+  return out;
+}
+
+Result<Reconstruction> Reconstruct(Photograph photograph, const Calibration& calibration,
+                                   const ReconstructOptions& options, Clock clock) {
+  auto made = ReconstructOnSensor(std::move(photograph), calibration, options, clock);
+  if (!made) return Fail(made.error());
+  Stages stages(clock, made->seconds);
+  Surface surface = std::move(made->surface).ToSurface();
+  stages.Done("lists");
+  Reconstruction out{std::move(static_cast<ReconstructionReport&>(*made)), std::move(surface)};
   return out;
 }
 

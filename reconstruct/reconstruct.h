@@ -12,6 +12,7 @@
 #include "core/surface.h"
 #include "reconstruct/order.h"
 #include "reconstruct/phase.h"
+#include "reconstruct/sensor_surface.h"
 #include "reconstruct/target.h"
 
 namespace striae::reconstruct {
@@ -31,8 +32,8 @@ struct ReconstructOptions {
   double outside_working_share = 0.12;
 };
 
-struct Reconstruction {
-  Surface surface;
+/// What is said of a surface.
+struct ReconstructionReport {
   std::vector<RegionOrder> regions;  ///< largest first; those without an order are not in the surface
   double coverage = 0;               ///< share of the lit field that has a point
   double carrier_period_px = 0;
@@ -42,12 +43,24 @@ struct Reconstruction {
   std::vector<std::pair<std::string, double>> seconds;  ///< per stage, in their order; filled by `clock`
 };
 
+struct Reconstruction : ReconstructionReport {
+  Surface surface;
+};
+
+struct SensorReconstruction : ReconstructionReport {
+  SensorSurface surface;
+};
+
 /// Reads a monotone clock in seconds; stages are timed with it when given (nothing here reads a clock itself).
 using Clock = double (*)();
 
 /// kCalibrationMismatch when the photograph's size or stripe direction is not the calibration's; kNoCarrier and
 /// kBadImage as MeasurePhase; kMeasurementRefused when no point lies within the working distance.
 /// The photograph's memory is used again when it is moved in.
+Result<SensorReconstruction> ReconstructOnSensor(Photograph photograph, const Calibration& calibration,
+                                                 const ReconstructOptions& options, Clock clock = nullptr);
+
+/// The same with the surface as lists.
 Result<Reconstruction> Reconstruct(Photograph photograph, const Calibration& calibration,
                                    const ReconstructOptions& options, Clock clock = nullptr);
 

@@ -138,7 +138,7 @@ Status Reconstruct(Context& context, const Options& options) {
   auto result = reconstruct::Reconstruct(options.preview.empty() ? *std::move(photograph) : *photograph, *calibration,
                                          settings, Now);
   if (!result) return Fail(result.error(), options.image.string());
-  SayWhatItIsMadeOf(photograph_sha256, calibration_sha256, result->surface);
+  SayWhatItIsMadeOf(photograph_sha256, calibration_sha256, result->surface.comments);
   if (const auto gains = reconstruct::Balance(*balance, result->surface); !gains) return Fail(gains.error());
   const double reconstructed = Now();
   nlohmann::json files;
@@ -150,7 +150,7 @@ Status Reconstruct(Context& context, const Options& options) {
     Status written = WritePreviews(options.preview, *photograph, *calibration, result->surface);
     if (!written) return written;
   }
-  Announce(context, *result, files, options.out);
+  Announce(context, *result, {result->surface.size(), result->surface.faces.size()}, files, options.out);
   return {};
 }
 

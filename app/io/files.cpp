@@ -31,6 +31,16 @@ int WriteAll(int file, std::span<const std::uint8_t> bytes) {
   return 0;
 }
 
+/// errno where there is no room. Where the file system cannot reserve, writing will tell.
+int Reserve(int file, std::size_t bytes) {
+#if defined(__linux__)
+  if (bytes > 0 && ::fallocate(file, 0, 0, static_cast<off_t>(bytes)) != 0) {
+    return errno == ENOSPC || errno == EFBIG || errno == EDQUOT ? errno : 0;
+  }
+#endif
+  return 0;
+}
+
 }  // namespace
 
 Result<std::vector<std::uint8_t>> ReadFile(const fs::path& path) {
@@ -54,7 +64,8 @@ Result<std::string> ReadText(const fs::path& path) {
   return std::string(bytes->begin(), bytes->end());
 }
 
-Status WriteFile(const fs::path& path, const std::function<bool(const ByteSink&)>& produce, Kept kept) {
+Status WriteFile(const fs::path& path, const std::function<bool(const ByteSink&)>& produce, Kept kept,
+                 std::size_t expected) {
   std::error_code code;
   if (fs::is_directory(path, code)) return WriteFailed(path, EISDIR);
   // Beyond a limit on the size of files (ulimit -f) writing shall fail like a full disk, not end the program.
@@ -64,12 +75,15 @@ Status WriteFile(const fs::path& path, const std::function<bool(const ByteSink&)
   const int file = ::mkstemp(temporary.data());
   if (file < 0) return WriteFailed(path, errno);
   ::fchmod(file, 0644);
-  int reason = 0;
-  const bool whole = produce([&](std::span<const std::uint8_t> bytes) {
-    reason = WriteAll(file, bytes);
-    return reason == 0;
-  });
+  int reason = Reserve(file, expected);
+  std::size_t written = 0;
+  const bool whole = reason == 0 && produce([&](std::span<const std::uint8_t> bytes) {
+                       reason = WriteAll(file, bytes);
+                       written += bytes.size();
+                       return reason == 0;
+                     });
   if (!whole && reason == 0) reason = EIO;
+  if (reason == 0 && written < expected && ::ftruncate(file, static_cast<off_t>(written)) != 0) reason = errno;
   if (reason == 0 && kept == Kept::kDisk && ::fsync(file) != 0) reason = errno;
   if (::close(file) != 0 && reason == 0) reason = errno;
   if (reason == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;

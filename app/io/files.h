@@ -29,8 +29,10 @@ using ByteSink = std::function<bool(std::span<const std::uint8_t>)>;
 
 /// Writes beside the target and renames over it; on any failure the target is as it was and no temporary stays.
 Status WriteFile(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, Kept kept = Kept::kDisk);
-/// The same for bytes that come in pieces from `produce`.
-Status WriteFile(const std::filesystem::path& path, const std::function<bool(const ByteSink&)>& produce, Kept kept);
+/// The same for bytes that come in pieces from `produce`. Room for `expected` bytes is asked for before the first is
+/// written, so that a full disk is known at once; the file is as long as what came, whatever was expected.
+Status WriteFile(const std::filesystem::path& path, const std::function<bool(const ByteSink&)>& produce, Kept kept,
+                 std::size_t expected = 0);
 Status WriteText(const std::filesystem::path& path, std::string_view text);
 
 /// SHA-256 of bytes, the same that names an object of the record.

@@ -3,7 +3,6 @@
 #include <system_error>
 
 #include "app/io/files.h"
-#include "core/ply.h"
 
 namespace striae::app {
 
@@ -21,9 +20,8 @@ Status CheckWritable(const fs::path& path) {
   return {};
 }
 
-Status WritePly(const Surface& surface, const fs::path& path) {
-  return WriteFile(
-      path, [&](const ByteSink& sink) { return EncodePly(surface, sink); }, Kept::kSystem);
+Status WritePly(const std::function<bool(const PieceSink&)>& encode, const fs::path& path, std::size_t expected) {
+  return WriteFile(path, encode, Kept::kSystem, expected);
 }
 
 }  // namespace striae::app

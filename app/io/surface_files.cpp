@@ -7,6 +7,7 @@
 #include "app/io/files.h"
 #include "app/io/ply_file.h"
 #include "core/obj.h"
+#include "core/ply.h"
 #include "core/stl.h"
 #include "dicom/thin.h"
 #include "reconstruct/decimate.h"
@@ -47,7 +48,7 @@ Status WriteAs(SurfaceFormat format, const Surface& surface, const fs::path& pat
   if (format == SurfaceFormat::kStl) {
     status = WriteFile(path, EncodeStl(surface, "Striae surface, mm, camera frame"), Kept::kSystem);
   } else {
-    status = WritePly(surface, path);
+    status = WritePly([&](const PieceSink& sink) { return EncodePly(surface, sink); }, path);
   }
   if (status) written.push_back(path);
   return status;

@@ -72,10 +72,28 @@ void LineAnalysis::Transform(const float* line, Scratch& scratch) const {
   plans_.Forward(scratch.real.get(), scratch.spectrum.get());
 }
 
-void LineAnalysis::operator()(const float* light, const Signal& out, Scratch& scratch) const {
-  const auto stride = static_cast<std::size_t>(length_);
+void LineAnalysis::Background(const float* light, float* background, Scratch& scratch) const {
   BoxMean(light, scratch.once.data(), length_, period_px_);
-  BoxMean(scratch.once.data(), out.background, length_, period_px_);
+  BoxMean(scratch.once.data(), background, length_, period_px_);
+}
+
+bool LineAnalysis::Unlit(const float* light, float least_amplitude, float least_modulation) const {
+  // Means over a quarter of a period keep 0.9 of a sinusoid's amplitude, and two pairs of them half a period apart give
+  // it whatever its phase. Along the stripes the phase turns with the surface: over 16 lines, at grazing incidence,
+  // half of the amplitude may be lost.
+  constexpr float kLeastShare = 0.45F;
+  const std::vector<float> m = GroupMeans(light, length_, std::max(1, static_cast<int>(std::lround(period_px_ / 4))));
+  if (m.size() < 8) return false;
+  float largest = 0, darkest = m[0];
+  for (std::size_t i = 0; i + 3 < m.size(); ++i) {
+    largest = std::max(largest, 0.5F * std::hypot(m[i] - m[i + 2], m[i + 1] - m[i + 3]));
+    darkest = std::min(darkest, 0.25F * (m[i] + m[i + 1] + m[i + 2] + m[i + 3]));
+  }
+  return largest < kLeastShare * std::max(least_amplitude, least_modulation * darkest);
+}
+
+void LineAnalysis::Stripes(const float* light, const Signal& out, Scratch& scratch) const {
+  const auto stride = static_cast<std::size_t>(length_);
   SubtractToLines(light, out.background, length_, scratch.lines.get(), stride);
   float *phases = scratch.lines.get(),
         *amplitudes = scratch.amplitudes.get();  // a line is done with when it is transformed
@@ -103,8 +121,7 @@ double LineAnalysis::Noise(const std::vector<Lanes<float>>& blocks) const {
   Lanes<float> background(stride * kLanes);
   std::vector<double> power;
   for (const Lanes<float>& light : blocks) {
-    BoxMean(light.data(), scratch.once.data(), length_, period_px_);
-    BoxMean(scratch.once.data(), background.data(), length_, period_px_);
+    Background(light.data(), background.data(), scratch);
     SubtractToLines(light.data(), background.data(), length_, scratch.lines.get(), stride);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       Transform(scratch.lines.get() + lane * stride, scratch);

@@ -33,7 +33,14 @@ class LineAnalysis {
     float* amplitude;   ///< of the fundamental, in the units of the signal
     float* background;  ///< local mean over one period, twice: zero at the carrier and its harmonics
   };
-  void operator()(const float* light, const Signal& out, Scratch& scratch) const;
+  void Background(const float* light, float* background, Scratch& scratch) const;
+  /// Phase and amplitude of light whose background is in `out` already.
+  void Stripes(const float* light, const Signal& out, Scratch& scratch) const;
+
+  /// No amplitude in the block reaches `least_amplitude`, or `least_modulation` of the darkest part of it; told from
+  /// its mean over all lines. False when in doubt. Most of a photograph is often unlit, and done with for a third of
+  /// the time.
+  [[nodiscard]] bool Unlit(const float* light, float least_amplitude, float least_modulation) const;
 
   /// Standard deviation of the amplitude's two components, from the band above the harmonics: the median over lines.
   [[nodiscard]] double Noise(const std::vector<Lanes<float>>& blocks) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/vector.h"
+#include "reconstruct/detail/extent.h"
 #include "reconstruct/detail/line_block.h"
 #include "reconstruct/detail/parallel.h"
 
@@ -51,17 +52,6 @@ STRIAE_VECTORISED void SmoothRow(const float* at, const float* const* before, co
     }
   }
   for (int x = first; x < last; ++x) out[x] = at[x] + sum[x] / weight[x];
-}
-
-/// Pixels [first, last) of a row hold all that are not NaN.
-struct Extent {
-  int first, last;
-};
-Extent ExtentOf(const float* row, int width) {
-  Extent extent{0, width};
-  while (extent.first < width && std::isnan(row[extent.first])) ++extent.first;
-  while (extent.last > extent.first && std::isnan(row[extent.last - 1])) --extent.last;
-  return extent;
 }
 
 /// Rows of an image with neighbours along the stripe: in the row itself, or in other rows.

@@ -22,6 +22,17 @@ using Lanes = Buffer<T>;
 /// Copies `width` values of every row; rows lie `from_stride` and `to_stride` values apart.
 void CopyRows(const float* from, std::size_t from_stride, int rows, int width, float* to, std::size_t to_stride);
 
+/// Asks for pixels [first, last) of a row that will be read soon: processors foresee steps along memory, but not from
+/// row to row.
+template <typename T>
+void PrefetchRow(const Image<T>& image, int row, int first, int last) {
+#if defined(__GNUC__)
+  if (row >= image.height()) return;
+  constexpr int kPerLine = std::max<int>(1, 64 / sizeof(T));
+  for (int x = first; x < last; x += kPerLine) __builtin_prefetch(image.Row(row) + x);
+#endif
+}
+
 /// Where the lines lie in an image: along columns (horizontal stripes) or along rows.
 class LineLayout {
  public:
@@ -85,6 +96,9 @@ void SmoothAcross(const float* with_halo, int length, const std::vector<float>& 
 
 /// Mean over `period_px` (fractional) around every position; the ends repeat the border value.
 void BoxMean(const float* in, float* out, int length, double period_px);
+
+/// Mean of all lanes over every whole group of `group` positions.
+std::vector<float> GroupMeans(const float* in, int length, int group);
 
 /// out = a - b, lane by lane: line l goes to out + l * stride.
 void SubtractToLines(const float* a, const float* b, int length, float* out, std::size_t stride);

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <thread>
 #include <vector>
+
+#include "core/image.h"
 
 namespace striae::reconstruct::detail {
 
@@ -41,6 +45,18 @@ void ParallelLines(int count, const Body& body) {
   ParallelBlocks(count, [&](int, int first, int last) {
     for (int line = first; line < last; ++line) body(line);
   });
+}
+
+/// Makes the system give an image's memory before several threads write to it in turns: two that touch a page first at
+/// the same time both wait for it to be cleared, twice. For an image that is written over afterwards.
+template <typename T>
+void TouchPages(Image<T>& image) {
+  constexpr std::size_t kPage = std::size_t{2} << 20;  // huge pages, core/buffer.h
+  auto* bytes = reinterpret_cast<std::uint8_t*>(image.pixels().data());
+  const std::size_t size = image.size() * sizeof(T);
+  ParallelBlocks(
+      static_cast<int>((size + kPage - 1) / kPage),
+      [&](int, int page, int) { bytes[static_cast<std::size_t>(page) * kPage] = 0; }, 1);
 }
 
 }  // namespace striae::reconstruct::detail

@@ -23,8 +23,9 @@ T ValueAt(const std::array<T, 4>& cubic, double t) {
 }
 
 STRIAE_VECTORISED void FillCell(const std::array<double, 4>& cubic, int count, double* out) {
+  const double share = 1.0 / count;
   for (int k = 0; k < count; ++k) {
-    const double t = static_cast<double>(k) / count;
+    const double t = k * share;  // exact: steps are powers of two
     out[k] = cubic[0] + t * (cubic[1] + t * (cubic[2] + t * cubic[3]));
   }
 }
@@ -54,7 +55,7 @@ double RayTable::ErrorAtCorners(const CameraModel& camera) const {
   RowOfRays rays;
   const int half = step_ / 2;
   for (const int row : {std::min(half, height_ - 1), std::max(0, height_ - 1 - half)}) {
-    Row(row, rays);
+    Row(row, 0, width_, rays);
     for (const int col : {std::min(half, width_ - 1), std::max(0, width_ - 1 - half)}) {
       const Eigen::Vector2d found(rays.x[static_cast<std::size_t>(col)], rays.y[static_cast<std::size_t>(col)]);
       const Eigen::Vector2d error =
@@ -65,8 +66,9 @@ double RayTable::ErrorAtCorners(const CameraModel& camera) const {
   return largest;
 }
 
-void RayTable::Row(int row, RowOfRays& rays) const {
-  const int cells = nodes_.width() - 3;
+void RayTable::Row(int row, int first, int last, RowOfRays& rays) const {
+  if (first >= last) return;
+  const int cells = nodes_.width() - 3, from = first / step_, to = (last - 1) / step_ + 1;
   rays.x.resize(static_cast<std::size_t>(cells * step_));
   rays.y.resize(rays.x.size());
   const int y = row / step_;
@@ -75,9 +77,9 @@ void RayTable::Row(int row, RowOfRays& rays) const {
     return ValueAt(CubicThrough<Eigen::Vector2d>(nodes_(x, y), nodes_(x, y + 1), nodes_(x, y + 2), nodes_(x, y + 3)),
                    t);
   };
-  std::array<Eigen::Vector2d, 4> around = {node(0), node(1), node(2), node(3)};
-  for (int cell = 0; cell < cells; ++cell) {
-    if (cell > 0) around = {around[1], around[2], around[3], node(cell + 3)};
+  std::array<Eigen::Vector2d, 4> around = {node(from), node(from + 1), node(from + 2), node(from + 3)};
+  for (int cell = from; cell < to; ++cell) {
+    if (cell > from) around = {around[1], around[2], around[3], node(cell + 3)};
     const auto at = static_cast<std::size_t>(cell * step_);
     FillCell(CubicThrough(around[0].x(), around[1].x(), around[2].x(), around[3].x()), step_, rays.x.data() + at);
     FillCell(CubicThrough(around[0].y(), around[1].y(), around[2].y(), around[3].y()), step_, rays.y.data() + at);

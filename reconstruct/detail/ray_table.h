@@ -20,8 +20,8 @@ struct RowOfRays {
 class RayTable {
  public:
   RayTable(const CameraModel& camera, int width, int height);
-  /// Rays of every pixel of a row (and of a few beyond its end).
-  void Row(int row, RowOfRays& rays) const;
+  /// Rays of the pixels [first, last) of a row, at their places (the others' are unset).
+  void Row(int row, int first, int last, RowOfRays& rays) const;
 
  private:
   void Fill(const CameraModel& camera);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/vector.h"
+#include "reconstruct/detail/extent.h"
 #include "reconstruct/detail/parallel.h"
 
 namespace striae::reconstruct::detail {
@@ -38,9 +39,9 @@ STRIAE_VECTORISED void RaiseWhereMissing(const float* before, const float* after
 }
 
 /// Modulation into the background's place, uncertainty into the amplitude's.
-STRIAE_VECTORISED void Combine(const float* before, const float* at, const float* after, const float* border, int width,
-                               const Terms& terms, float* amplitude, float* background) {
-  for (int x = 0; x < width; ++x) {
+STRIAE_VECTORISED void Combine(const float* before, const float* at, const float* after, const float* border,
+                               const Extent& extent, const Terms& terms, float* amplitude, float* background) {
+  for (int x = extent.first; x < extent.last; ++x) {
     const float modulation = amplitude[x] / std::max(background[x], 1e-6F);
     background[x] = modulation < 1 ? modulation : 1.0F;
     const float of_noise = terms.noise / std::max(amplitude[x], 1e-9F);
@@ -55,16 +56,17 @@ class Around {
  public:
   explicit Around(const ImageF& order) : order_(order), border_(static_cast<std::size_t>(order.width())) {}
 
-  const float* BorderOf(int row, double period_px) {
+  const float* BorderOf(int row, const Extent& extent, double period_px) {
     const int width = order_.width(), height = order_.height();
     const float* at = order_.Row(row);
-    std::fill(border_.begin(), border_.end(), 0.0F);
+    std::fill(border_.begin() + extent.first, border_.begin() + extent.last, 0.0F);
     for (const Border& term : kBorders) {
       const int step = std::max(1, static_cast<int>(std::lround(term.periods * period_px)));
       // What lies beyond the photograph counts as there: the surface goes on where the picture ends.
-      RaiseWhereMissing(order_.Row(std::max(0, row - step)), order_.Row(std::min(height - 1, row + step)), 0, width,
+      RaiseWhereMissing(order_.Row(std::max(0, row - step)), order_.Row(std::min(height - 1, row + step)), extent.first,
+                        extent.last, term.stripes, border_.data());
+      RaiseWhereMissing(at - step, at + step, std::max(step, extent.first), std::min(width - step, extent.last),
                         term.stripes, border_.data());
-      RaiseWhereMissing(at - step, at + step, step, width - step, term.stripes, border_.data());
     }
     return border_.data();
   }
@@ -88,17 +90,20 @@ void OrderUncertainty(const ImageF& order, StripeDirection direction, double per
     Around around(order);
     std::vector<float> before(static_cast<std::size_t>(width)), after(before);
     for (int row = first; row < last; ++row) {
-      const float *at = order.Row(row), *border = around.BorderOf(row, period_px);
+      const float* at = order.Row(row);
+      const Extent extent = ExtentOf(at, width);
+      if (extent.empty()) continue;
+      const float* border = around.BorderOf(row, extent, period_px);
       const float *b = order.Row(std::max(0, row - step)), *a = order.Row(std::min(height - 1, row + step));
       if (!horizontal) {  // the line is the row itself; its ends repeat
-        for (int x = 0; x < width; ++x) {
+        for (int x = extent.first; x < extent.last; ++x) {
           before[static_cast<std::size_t>(x)] = at[std::max(0, x - step)];
           after[static_cast<std::size_t>(x)] = at[std::min(width - 1, x + step)];
         }
         b = before.data();
         a = after.data();
       }
-      Combine(b, at, a, border, width, terms, amplitude.Row(row), background.Row(row));
+      Combine(b, at, a, border, extent, terms, amplitude.Row(row), background.Row(row));
     }
   });
 }

@@ -131,6 +131,7 @@ Unwrapped UnwrapBetweenCuts(ImageF wrapped, const Mask& mask, const std::vector<
   const int width = wrapped.width(), height = wrapped.height();
   Unwrapped out{std::move(wrapped), Image<std::int32_t>::Unset(width, height), 0, rows.Settle()};
   out.regions = static_cast<int>(out.pixels.size());
+  TouchPages(out.region);
   ParallelLines(height, [&](int row) {
     float* phase = out.phase.Row(row);
     std::int32_t* region = out.region.Row(row);

@@ -1,9 +1,8 @@
-// From absolute stripe orders to points and faces.
+// From absolute stripe orders to depth.
 #pragma once
 
 #include "core/calibration.h"
 #include "core/image.h"
-#include "core/surface.h"
 #include "reconstruct/detail/ray_table.h"
 
 namespace striae::reconstruct::detail {
@@ -13,15 +12,5 @@ namespace striae::reconstruct::detail {
 /// along the pixel's ray) after.
 ImageF Triangulate(ImageF order, const Calibration& calibration, const RayTable& table, double near_mm, double far_mm,
                    ImageF& uncertainty);
-
-/// What becomes the points' properties.
-struct PointImages {
-  ImageF depth, uncertainty, modulation;
-  ImageRgb colour;
-};
-
-/// Points in row-major order of their pixels, and two triangles for every 2 x 2 of neighbours (one where three are
-/// valid). Sides that run deeper than grazing incidence of 75 degrees explains are cut.
-Surface BuildSurface(PointImages images, const Calibration& calibration, const RayTable& table, bool faces);
 
 }  // namespace striae::reconstruct::detail
