@@ -32,14 +32,4 @@ Result<std::optional<store::Doubt>> DoubtAbout(store::Record& record, const stor
 /// Every measurement is flagged with the doubt's reason, after any reason of its own.
 void Flag(AnalysisReport& report, const store::Doubt& doubt);
 
-/// Devices whose newest check of some kind failed, for `status`.
-struct OutOfTolerance {
-  Device device;
-  store::DeviceCheck failed;
-};
-Result<std::vector<OutOfTolerance>> DevicesOutOfTolerance(store::Record& record);
-nlohmann::json ToJson(const std::vector<OutOfTolerance>& devices);
-/// A line for each, empty when there is none.
-std::string TextOf(const std::vector<OutOfTolerance>& devices);
-
 }  // namespace striae::app

@@ -1,6 +1,6 @@
 // `striae status`: where the study stands and what is pending.
-#include "app/device_checks.h"
 #include "app/local_time.h"
+#include "app/out_of_tolerance.h"
 #include "app/quarantine.h"
 #include "app/study.h"
 #include "store/json.h"
