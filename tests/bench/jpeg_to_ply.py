@@ -35,6 +35,8 @@ def main():
         ply = os.path.join(folder, "surface.ply")
         command = [options.striae, "reconstruct", options.image, "--calibration", options.calibration, "--out", ply, "--json"]
         for _ in range(options.runs):
+            if os.path.exists(ply):
+                os.remove(ply)  # to take a file of 150 MB off the disk takes longer than to write it
             ours = must_run(command)
             document = json.loads(ours[4])
             period = document["carrier_period_px"]
