@@ -5,6 +5,7 @@
 
 #include "analysis/wound/detail/budget.h"
 #include "analysis/wound/detail/choice.h"
+#include "analysis/wound/detail/deepest.h"
 #include "analysis/wound/detail/quantities.h"
 #include "analysis/wound/detail/report.h"
 #include "analysis/wound/detail/scene.h"
@@ -12,7 +13,8 @@
 namespace striae::wound {
 namespace {
 
-constexpr double kProudNoise = 3;  // tissue above the skin counts from this many sd of the smoothed ring
+constexpr double kLineSmoothing = 3;  // sd of the smoothing of a drawn line over the roughness of its points
+constexpr double kProudNoise = 3;     // tissue above the skin counts from this many sd of the smoothed ring
 
 Status CheckOptions(const Options& o) {
   const bool positive = o.cell_mm > 0 && o.margin_mm >= 0 && o.ring_width_mm > 0 && o.smoothing_mm >= 0 &&
@@ -78,7 +80,10 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   const auto smoothed = SmoothedHeights(scene, a.skin, options.smoothing_mm, a.ring.gap_mm + a.ring.width_mm);
   findings.noise_mm = SmoothedRingSd(scene, smoothed, a.ring);
   findings.depths = MeasureDepths(scene, bed, a.skin, smoothed, kProudNoise * findings.noise_mm);
-  findings.boundary = MeasureBoundary(scene.outline, a.skin, options.perimeter_step_mm, scene.patch.cell_mm());
+  findings.deepest = FindDeepest(scene, bed, a.skin, findings.depths, options.deepest_mm, options.resolution_mm);
+  findings.boundary = MeasureBoundary(scene.outline, a.skin, options.perimeter_step_mm, scene.patch.cell_mm(),
+                                      kLineSmoothing * plus->line.roughness);
+  findings.line = plus->line;
   const Budget budget = DrawBudget(scene, bed, *choice, model, intact, findings, options, flags);
 
   AnalysisReport report;
@@ -100,6 +105,10 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   report.details["net_volume_ml"] = *net / 1000;
   report.details["net_volume_at_first_gap_ml"] = choice->first_volume_mm3 / 1000;
   report.details["volume_uncertainty_parts_ml"] = budget.volume_parts_ml;
+  report.details["depth_max"] = {{"smoothed_mm", findings.depths.max_mm},
+                                 {"window_correction_mm", findings.deepest.correction_mm},
+                                 {"fit_noise_mm", findings.deepest.noise_mm}};
+  report.details["outline_roughness_mm"] = plus->line.roughness;
   report.details["hole_share"] = plus->hole_share;
   report.details["cell_mm"] = scene.patch.cell_mm();
   report.details["length_axis"] = "longest";

@@ -22,12 +22,17 @@ struct Options {
   double radial_trend_mm = 0.05;   ///< step between the ring's inner edge and its middle that counts as oedema
   double null_cell_mm = 1.0;       ///< cells for looking at intact skin beside the wound
   double smoothing_mm = 0.5;       ///< sd of the Gaussian before depth and bed area; volume stays unsmoothed
+  double deepest_mm = 1.25;        ///< radius of the surface fitted around the deepest point
+  double resolution_mm = 0.75;     /**< sd of the reconstruction's kernel: T / (sqrt(8) w) for a Hann window of relative
+                                        width w = 0.9 and stripes T = 1.9 mm apart on the skin */
   double perimeter_step_mm = 1.0;  ///< the outline is resampled at this step and draped on the virtual skin
   double max_ring_slope_deg = 60;  ///< steeper skin (against the ring's mean plane) cannot be continued by polynomials
-  double outline_sd_mm = 0.3;      ///< standard uncertainty of the drawn line's place, as a common offset
-  double wall_sd_mm = 0.05;  ///< standard uncertainty of the place of a wound's walls: the Fourier stage rounds them
-  double bridge_mm = 2;      ///< holes inside the wound are bridged up to this far from a measured point
-  double scale_relative_sd = 0.002;  ///< standard uncertainty of the surface's scale (calibration)
+  double outline_sd_mm = 0.05;     /**< standard uncertainty of the drawn line's place, as a common offset: half a
+                                        pixel at 1 m. The line's own shakes are added; what an operator would take for
+                                        the edge on another day is not in it */
+  double wall_sd_mm = 0.025;  ///< standard uncertainty of the place of a wound's walls: the Fourier stage rounds them
+  double bridge_mm = 2;       ///< holes inside the wound are bridged up to this far from a measured point
+  double scale_relative_sd = 0.001;  ///< standard uncertainty of the surface's scale (calibration)
 };
 
 /// Version of the method: changes whenever a number may change.

@@ -75,22 +75,26 @@ nlohmann::json ToJson(const VolumeParts& u) {
 }
 
 // How the volume changes when the drawn line moves out or in by its uncertainty.
-double OutlinePart(const Scene& scene, const Skin& skin, const Options& options) {
+double OutlinePart(const Scene& scene, const Skin& skin, double roughness_mm, const Options& options) {
+  const double off_mm = RootOfSquares({options.outline_sd_mm, roughness_mm / 2});
   const auto net_at = [&](double margin_mm) {
     const Bed bed = TakeBed(scene, margin_mm);
     return PrismSum(bed, HeightsAbove(bed, skin));
   };
-  return std::abs(net_at(options.margin_mm + options.outline_sd_mm) -
-                  net_at(options.margin_mm - options.outline_sd_mm)) /
-         2;
+  return std::abs(net_at(options.margin_mm + off_mm) - net_at(options.margin_mm - off_mm)) / 2;
 }
 
-void SetLengths(const Boundary& boundary, const Options& options, Figures& figures) {
+// Area: the line's shakes, and a common offset; lengths likewise, a shake at either end.
+void SetLengths(const Boundary& boundary, const LineStudy& line, const Options& options, Figures& figures) {
   const double s = options.outline_sd_mm, scale = options.scale_relative_sd;
-  figures.area = {boundary.area_mm2, RootOfSquares({boundary.perimeter_mm * s, 2 * scale * boundary.area_mm2})};
-  figures.perimeter = {boundary.perimeter_mm, RootOfSquares({2 * M_PI * s, scale * boundary.perimeter_mm})};
-  figures.length = {boundary.length_mm, RootOfSquares({std::sqrt(2.0) * s, scale * boundary.length_mm})};
-  figures.width = {boundary.width_mm, RootOfSquares({std::sqrt(2.0) * s, scale * boundary.width_mm})};
+  const double ends = std::sqrt(2.0) * RootOfSquares({s, line.roughness / std::sqrt(2.0)});
+  // The shakes that smoothing leaves lengthen or shorten it at random: about as much as at one end.
+  const double shakes = RootOfSquares({2 * M_PI * s, 2 * line.roughness});
+  figures.area = {boundary.area_mm2,
+                  RootOfSquares({boundary.perimeter_mm * s, line.area_sd, 2 * scale * boundary.area_mm2})};
+  figures.perimeter = {boundary.perimeter_mm, RootOfSquares({shakes, scale * boundary.perimeter_mm})};
+  figures.length = {boundary.length_mm, RootOfSquares({ends, scale * boundary.length_mm})};
+  figures.width = {boundary.width_mm, RootOfSquares({ends, scale * boundary.width_mm})};
 }
 
 }  // namespace
@@ -122,7 +126,7 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
   u.model = models.volume_sd_mm3;
   u.nulls = intact.Rms(model.model, 2).value_or(0) * f.boundary.area_mm2;
   u.gap = SdOf(f.net_mm3, choice.other_gap_volumes_mm3);
-  u.outline = OutlinePart(scene, a.skin, options);
+  u.outline = OutlinePart(scene, a.skin, f.line.roughness, options);
   u.walls = options.wall_sd_mm * f.boundary.perimeter_mm * f.depths.p95_mm;
   u.bridges = kBridgeRelativeSd * f.depths.bridged_mm3;
   u.scale = 3 * options.scale_relative_sd * volume;
@@ -133,7 +137,7 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
 
   Budget budget;
   Figures& figures = budget.figures;
-  SetLengths(f.boundary, options, figures);
+  SetLengths(f.boundary, f.line, options, figures);
   figures.volume = {volume, u.Sum()};
   const double u_proud = f.depths.proud_mm3 > 0 ? RootOfSquares({u.ring, u.model}) : 0;
   figures.proud_volume = {f.depths.proud_mm3, RootOfSquares({f.noise_mm * blocks_mm2, u_proud})};
@@ -142,7 +146,8 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
                       RootOfSquares({figures.area.uncertainty * bed_area / area, kBedAreaRelativeSd * bed_area})};
   const double u_skin = RootOfSquares({HeightSd(a.skin, covariance, f.depths.deepest), models.depth_sd_mm, f.noise_mm});
   const auto with_sd = [&](double depth) { return Figure{depth, RootOfSquares({u_skin, kDepthRelativeSd * depth})}; };
-  figures.depth_max = with_sd(f.depths.max_mm);
+  figures.depth_max = {f.deepest.depth_mm, RootOfSquares({u_skin, f.deepest.noise_mm, f.deepest.correction_mm / 2,
+                                                          kDepthRelativeSd * f.deepest.depth_mm})};
   figures.depth_p95 = with_sd(f.depths.p95_mm);
   figures.depth_mean = {volume / area,
                         RootOfSquares({u.Sum() / area, volume / area * figures.area.uncertainty / area})};

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/wound/detail/choice.h"
+#include "analysis/wound/detail/deepest.h"
+#include "analysis/wound/detail/line.h"
 #include "analysis/wound/detail/quantities.h"
 #include "analysis/wound/detail/report.h"
 
@@ -16,6 +18,8 @@ struct Findings {
   double net_mm3 = 0;   ///< under the skin minus above it, with the margin
   double noise_mm = 0;  ///< robust sd of the smoothed ring about the skin
   Depths depths;
+  Deepest deepest;
+  LineStudy line;
   Boundary boundary;
 };
 

@@ -13,9 +13,9 @@ constexpr double kMostEmptySectors = 0.25;
 constexpr double kMostSteep = 0.1, kMostOutliers = 0.3, kManyOutliers = 0.1;
 constexpr double kTrendT = 3;
 
-std::optional<Attempt> Try(const Scene& scene, double gap_mm, const Options& options) {
+std::optional<Attempt> Try(const Scene& scene, double gap_mm, double width_mm) {
   Attempt attempt;
-  attempt.ring = TakeRing(scene, gap_mm, options.ring_width_mm);
+  attempt.ring = TakeRing(scene, gap_mm, width_mm);
   if (attempt.ring.coverage < kLeastCoverage || attempt.ring.empty_sectors > kMostEmptySectors) return std::nullopt;
   attempt.weights = WeighRing(attempt.ring.points);
   attempt.skin = FitSkin(SkinModel::kQuadricC4, attempt.ring.points, attempt.weights);
@@ -69,23 +69,15 @@ bool HasTrend(const Attempt& attempt, const Options& options) {
   return std::abs(attempt.trend.step_mm) > options.radial_trend_mm && std::abs(attempt.trend.t) > kTrendT;
 }
 
-}  // namespace
-
-std::string Format(const char* format, double value) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, const Options& options) {
+// Tries the gaps outwards with one width of the ring.
+Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, double width_mm, const Options& options) {
   Choice choice;
   std::size_t at = 0;
   for (; at < options.gaps_mm.size(); ++at) {
-    auto attempt = Try(scene, options.gaps_mm[at], options);
+    auto attempt = Try(scene, options.gaps_mm[at], width_mm);
     if (!attempt && at == 0) {
       return Fail(ErrorCode::kMeasurementRefused,
-                  "too little healthy skin around the outline: the ring of " +
-                      Format("%.0f mm", options.ring_width_mm) +
+                  "too little healthy skin around the outline: the ring of " + Format("%.0f mm", width_mm) +
                       " is cut off by the surface's edge or by holes; photograph with more skin around the wound");
     }
     if (!attempt) break;
@@ -98,10 +90,28 @@ Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, const Options& opt
     if (choice.settled) break;
   }
   for (std::size_t next = at + 1; next < std::min(at + 3, options.gaps_mm.size()); ++next) {
-    const auto attempt = Try(scene, options.gaps_mm[next], options);
+    const auto attempt = Try(scene, options.gaps_mm[next], width_mm);
     if (attempt) choice.other_gap_volumes_mm3.push_back(PrismSum(bed, HeightsAbove(bed, attempt->skin)));
   }
   return choice;
+}
+
+}  // namespace
+
+std::string Format(const char* format, double value) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, const Options& options) {
+  for (const double share : {1.0, 0.7}) {
+    auto choice = ChooseRing(scene, bed, share * options.ring_width_mm, options);
+    if (!choice) return choice;
+    if (SteepShare(choice->chosen.ring, choice->chosen.skin, options.max_ring_slope_deg) <= kMostSteep) return choice;
+  }
+  // On round bodies the ring's outer half bends away: half of its width must do.
+  return ChooseRing(scene, bed, options.ring_width_mm / 2, options);
 }
 
 ModelChoice ChooseModel(const Attempt& attempt, const IntactSkin& intact) {
@@ -133,6 +143,9 @@ Status CheckRing(const Choice& choice, const Options& options, Flags& flags) {
     return Fail(ErrorCode::kMeasurementRefused,
                 "the skin around the outline is not one smooth surface (cloth, hair or background lies in the ring); "
                 "uncover it and photograph again");
+  }
+  if (a.ring.width_mm < 0.99 * options.ring_width_mm) {
+    flags.inside.push_back(Format("the skin bends away: a ring of only %.1f mm was used", a.ring.width_mm));
   }
   if (steep > 0.01) flags.inside.push_back("part of the surrounding skin is very steep");
   if (a.weights.outlier_share > kManyOutliers) {

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "analysis/wound/detail/line.h"
+
 namespace striae::wound {
 namespace {
 
@@ -245,14 +247,16 @@ Depths MeasureDepths(const Scene& scene, const Bed& bed, const Skin& skin, const
   return depths;
 }
 
-Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_mm, double cell_mm) {
+Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_mm, double cell_mm,
+                         double smoothing_mm) {
   Boundary boundary;
   boundary.plane_area_mm2 = EnclosedArea(outline);
   IntegrateOver(outline, cell_mm, [&](const Eigen::Vector2d& p, double area) {
     boundary.area_mm2 += area * std::sqrt(1 + skin.Gradient(p.x(), p.y()).squaredNorm());
   });
   std::vector<Eigen::Vector3d> draped;
-  for (const auto& p : Resample(outline, step_mm)) draped.emplace_back(p.x(), p.y(), skin.Height(p.x(), p.y()));
+  const Polygon line = Smoothed(Resample(outline, step_mm), smoothing_mm);
+  for (const auto& p : line) draped.emplace_back(p.x(), p.y(), skin.Height(p.x(), p.y()));
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
   for (std::size_t a = 0; a < draped.size(); ++a) {
     boundary.perimeter_mm += (draped[(a + 1) % draped.size()] - draped[a]).norm();

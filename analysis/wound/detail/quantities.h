@@ -52,6 +52,7 @@ struct Boundary {
   double length_mm = 0;       ///< longest chord of the draped outline
   double width_mm = 0;        ///< extent across it, in the plane of the chord and the skin's tangents
 };
-Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_mm, double cell_mm);
+/// `smoothing_mm`: of the line before its lengths are taken, which a shaking hand makes longer; its area is as drawn.
+Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_mm, double cell_mm, double smoothing_mm);
 
 }  // namespace striae::wound

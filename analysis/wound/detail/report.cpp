@@ -86,6 +86,8 @@ nlohmann::json ToJson(const Options& options) {
           {"radial_trend_mm", options.radial_trend_mm},
           {"null_cell_mm", options.null_cell_mm},
           {"smoothing_mm", options.smoothing_mm},
+          {"deepest_mm", options.deepest_mm},
+          {"resolution_mm", options.resolution_mm},
           {"perimeter_step_mm", options.perimeter_step_mm},
           {"max_ring_slope_deg", options.max_ring_slope_deg},
           {"outline_sd_mm", options.outline_sd_mm},

@@ -153,6 +153,9 @@ Result<ScenePlus> BuildScene(const Surface& surface, const Outline& outline, con
   }
   scene.frame = FitFrame(near_ring);
   scene.outline = LayOnSkin(outline_px, scene, nullptr);
+  Polygon drawn_mm = outline.polygon_px;
+  for (auto& p : drawn_mm) p *= scene.patch.pixel_mm;
+  plus.line = StudyLine(drawn_mm);
   Place(scene, *usable);
   // The skin moves the outline and the outline moves the ring: once more settles it well below a pixel.
   for (int round = 0; round < 2; ++round) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/wound/detail/line.h"
 #include "analysis/wound/detail/report.h"
 #include "analysis/wound/detail/ring.h"
 
@@ -11,6 +12,7 @@ namespace striae::wound {
 
 struct ScenePlus {
   Scene scene;
+  LineStudy line;             ///< of the outline as drawn, mm
   double hole_share = 0;      ///< cells inside the outline that had no measured point
   double boundary_share = 1;  ///< cells just outside the outline that belong to the skin's sheet
 };
