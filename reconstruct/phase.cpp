@@ -137,7 +137,7 @@ float WellLitModulation(const LineAnalysis& analysis, const std::vector<Lanes<fl
   if (modulations.empty()) return 0;
   const auto quartile = modulations.begin() + static_cast<long>(3 * modulations.size() / 4);
   std::nth_element(modulations.begin(), quartile, modulations.end());
-  return std::min(1.0F, *quartile);
+  return *quartile;
 }
 
 /// Fills `result.noise` as well.
@@ -151,9 +151,11 @@ detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const LightReader& rea
   constexpr double kStepNearBlack = 1 / (255 * 12.92);
   limits.least_amplitude =
       static_cast<float>(std::max(result.noise / options.largest_phase_noise, reader.linear() ? 1e-5 : kStepNearBlack));
+  const float well_lit = WellLitModulation(analysis, blocks, limits.least_amplitude, memory);
   limits.least_modulation = std::max(static_cast<float>(options.least_modulation),
-                                     static_cast<float>(options.least_modulation_share) *
-                                         WellLitModulation(analysis, blocks, limits.least_amplitude, memory));
+                                     static_cast<float>(options.least_modulation_share) * std::min(1.0F, well_lit));
+  limits.most_modulation = std::max(static_cast<float>(options.most_modulation),
+                                    static_cast<float>(options.most_modulation_share) * well_lit);
   limits.least_share = static_cast<float>(options.least_plateau_share);
   limits.least_share_between = static_cast<float>(options.least_share_between);
   limits.least_run_px = static_cast<int>(std::lround(options.least_run_periods * result.carrier_period_px));

@@ -30,6 +30,10 @@ struct PhaseOptions {
   /// Least modulation against that of the well lit parts (upper quartile): what no stripe reaches still shows a ghost
   /// of the carrier along its outline, on dark and bright surfaces alike.
   double least_modulation_share = 0.35;
+  /// Most modulation against that of the well lit parts, or most_modulation where that is more: light that spills from
+  /// a bright neighbour into a shadow brings its stripes, but not its mean. Such a place has its neighbour's phase.
+  double most_modulation_share = 1.1;
+  double most_modulation = 0.94;
   double least_run_periods = 1.0;     ///< along a line across the stripes: a step of brightness gives a shorter ghost
   double largest_phase_noise = 0.35;  ///< rad, standard deviation expected from the sensor's noise
   int least_region_px = 400;          ///< smaller specks are dropped

@@ -226,7 +226,7 @@ STRIAE_VECTORISED void JudgeLanes(const float* amplitude, const float* backgroun
     for (int i = first; i < std::min(first + group, length); ++i) {
       const Floats a = STRIAE_LANES(const Floats, amplitude + At(i));
       const Floats b = STRIAE_LANES(const Floats, background + At(i));
-      const Ints kept = (a > needed) & (a > limits.least_modulation * b);
+      const Ints kept = (a > needed) & (a > limits.least_modulation * b) & (a < limits.most_modulation * b);
       STRIAE_LANES(Bytes, mask + At(i)) = __builtin_convertvector(-kept, Bytes);
     }
   }

@@ -117,6 +117,7 @@ void GroupMaximum(const float* in, int length, int group, float* out);
 struct MaskLimits {
   float least_amplitude = 0;      ///< against the noise
   float least_modulation = 0;     ///< amplitude over background
+  float most_modulation = 2;      ///< the same
   float least_share = 0;          ///< of the plateau around
   float least_share_between = 0;  ///< the same between bright places
   int least_run_px = 1;           ///< along the line

@@ -55,5 +55,29 @@ TEST(Unlit, DarkSkinUnderStripesIsSurface) {
   EXPECT_GT(ValidPixels(phase->mask, 5, kLightEnds), 170 * 200 * 0.95);
 }
 
+TEST(Unlit, LightThatSpillsIntoAShadowIsNoSurface) {
+  // A chin's shadow on the neck: stripes above it, and below it half a stripe on. What the Fourier window carries into
+  // the shadow has the chin's phase, and would be read as chin a hand's breadth before the neck.
+  constexpr int kFirst = 150, kLast = 190;
+  constexpr double kPeriod = 16;
+  Photograph photograph{ImageF(kWidth, kHeight), ImageRgb(kWidth, kHeight), 1.0F};
+  for (int row = 0; row < kHeight; ++row) {
+    const bool shadow = row >= kFirst && row < kLast;
+    const double turns = row / kPeriod + (row < kFirst ? 0 : 0.5);
+    const double light = shadow ? 0.004 : 0.8 * (0.3 + 0.25 * std::cos(2 * std::numbers::pi * turns));
+    const double encoded = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+    for (int col = 0; col < kWidth; ++col) photograph.luminance(col, row) = static_cast<float>(encoded);
+  }
+  const auto phase = MeasurePhase(photograph);
+  ASSERT_TRUE(phase) << phase.error().Describe();
+  int spilled = 0, lit = 0;
+  for (int row = 0; row < kHeight; ++row) {
+    const bool shadow = row >= kFirst + 4 && row < kLast - 4;  // a quarter of a period: the window's own sharpness
+    (shadow ? spilled : lit) += phase->mask(kWidth / 2, row);
+  }
+  EXPECT_EQ(spilled, 0);
+  EXPECT_GT(lit, 0.9 * (kHeight - (kLast - kFirst)));
+}
+
 }  // namespace
 }  // namespace striae::reconstruct
