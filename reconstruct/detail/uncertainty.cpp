@@ -20,12 +20,16 @@ struct Border {
   double periods;
   float stripes;
 };
-constexpr std::array<Border, 4> kBorders = {{{0.25, 0.02F}, {0.5, 0.01F}, {1, 0.004F}, {2, 0.0015F}}};
+constexpr std::array<Border, 4> kBorders = {{{0.25, 0.035F}, {0.5, 0.022F}, {1, 0.011F}, {2, 0.0035F}}};
+/// Where the stripes lie closer or wider than the carrier by more than a tenth, a step in depth may be smoothed over:
+/// stripes per share of the period beyond it. Found on the same bodies, at chins and ears.
+constexpr float kLargestShift = 0.1F, kSteep = 0.3F;
 constexpr float kFloor = 0.0004F;  ///< stripes; texture, and what does not follow from the sensor's noise
 
 struct Terms {
   float noise = 0;      ///< over the amplitude: stripes
   float curvature = 0;  ///< times the second difference of the order over the step: stripes
+  float shift = 0;      ///< times the first difference over two steps: periods of the carrier a stripe
 };
 
 /// Raises border[x] to `stripes` where one of two pixels is missing.
@@ -47,7 +51,10 @@ STRIAE_VECTORISED void Combine(const float* before, const float* at, const float
     const float of_noise = terms.noise / std::max(amplitude[x], 1e-9F);
     const float bent = terms.curvature * (before[x] + after[x] - 2 * at[x]);
     const float of_shape = bent == bent ? bent : 0.0F;  // NaN beside a border, which has its own term
-    amplitude[x] = std::sqrt(of_noise * of_noise + kFloor * kFloor + of_shape * of_shape + border[x] * border[x]);
+    const float shifted = std::abs(terms.shift * (after[x] - before[x]) - 1) - kLargestShift;
+    const float of_step = shifted > 0 ? kSteep * shifted : 0.0F;  // 0 for NaN
+    amplitude[x] = std::sqrt(of_noise * of_noise + kFloor * kFloor + of_shape * of_shape + of_step * of_step +
+                             border[x] * border[x]);
   }
 }
 
@@ -83,7 +90,8 @@ void OrderUncertainty(const ImageF& order, StripeDirection direction, double per
   const int step = std::max(1, static_cast<int>(std::lround(period_px / 4)));
   // H = (1 + cos(pi (f - f0) / W)) / 2 has the second moment -H''(f0) / (4 pi^2) = 1 / (8 W^2), W = half_width / T.
   const double moment = period_px * period_px / (8 * window_half_width * window_half_width);
-  const Terms terms{static_cast<float>(noise / (2 * std::numbers::pi)), static_cast<float>(moment / 2 / (step * step))};
+  const Terms terms{static_cast<float>(noise / (2 * std::numbers::pi)), static_cast<float>(moment / 2 / (step * step)),
+                    static_cast<float>(period_px / (2 * step))};
   const bool horizontal = direction == StripeDirection::kHorizontal;
   const int width = order.width(), height = order.height();
   ParallelBlocks(height, [&](int, int first, int last) {
