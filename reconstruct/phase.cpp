@@ -158,6 +158,7 @@ detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const LightReader& rea
                                     static_cast<float>(options.most_modulation_share) * well_lit);
   limits.least_share = static_cast<float>(options.least_plateau_share);
   limits.least_share_between = static_cast<float>(options.least_share_between);
+  limits.rim_px = static_cast<int>(std::lround(options.rim_periods * result.carrier_period_px));
   limits.least_run_px = static_cast<int>(std::lround(options.least_run_periods * result.carrier_period_px));
   return limits;
 }
@@ -187,6 +188,7 @@ void AnalyseBlock(const LineAnalysis& analysis, const detail::MaskLimits& limits
   detail::JudgeLanes(m.amplitude.data(), m.background.data(), m.maximum.data(), length, plateau.group, plateau.reach,
                      limits, m.mask.data());
   detail::DropShortRuns(m.mask.data(), length, limits.least_run_px, m.runs);
+  detail::TrimRuns(m.mask.data(), length, limits.rim_px, m.runs);
 }
 
 /// Fills the images of `result` and the wrapped phase, block by block; each block stays in the processor's cache.

@@ -251,4 +251,26 @@ STRIAE_VECTORISED void DropShortRuns(std::uint8_t* mask, int length, int least, 
   }
 }
 
+STRIAE_VECTORISED void TrimRuns(std::uint8_t* mask, int length, int rim, Lanes<std::uint16_t>& scratch) {
+  constexpr std::uint16_t kMost = 30000;
+  scratch.resize(At(length));
+  const Shorts outer = Shorts{} + static_cast<std::uint16_t>(std::clamp(rim, 0, int{kMost} - 1));
+  const auto go_on = [](Shorts& run, const std::uint8_t* at) {  // valid pixels in a row so far
+    const Shorts valid = -__builtin_convertvector(STRIAE_LANES(const Bytes, at), Shorts);
+    run = (run < kMost ? run + static_cast<std::uint16_t>(1) : run) & valid;
+  };
+  Shorts run = outer;  // what goes on beyond the photograph has no rim there
+  for (int i = 0; i < length; ++i) {
+    go_on(run, mask + At(i));
+    STRIAE_LANES(Shorts, scratch.data() + At(i)) = run;
+  }
+  run = outer;
+  for (int i = length - 1; i >= 0; --i) {
+    go_on(run, mask + At(i));
+    const Shorts before = STRIAE_LANES(const Shorts, scratch.data() + At(i));
+    STRIAE_LANES(Bytes, mask + At(i)) =
+        __builtin_convertvector((run > outer) & (before > outer) & static_cast<std::uint16_t>(1), Bytes);
+  }
+}
+
 }  // namespace striae::reconstruct::detail

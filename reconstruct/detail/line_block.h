@@ -121,6 +121,7 @@ struct MaskLimits {
   float least_share = 0;          ///< of the plateau around
   float least_share_between = 0;  ///< the same between bright places
   int least_run_px = 1;           ///< along the line
+  int rim_px = 0;                 ///< taken off a run's ends
 };
 
 /// mask = 1 where the limits hold. `maximum` is LaneMaximum's over
@@ -130,5 +131,8 @@ void JudgeLanes(const float* amplitude, const float* background, const float* ma
 
 /// Takes out runs of valid pixels shorter than `least` along each lane.
 void DropShortRuns(std::uint8_t* mask, int length, int least, Lanes<std::uint16_t>& scratch);
+
+/// Takes `rim` pixels off both ends of every run along each lane, but not at the lane's own ends.
+void TrimRuns(std::uint8_t* mask, int length, int rim, Lanes<std::uint16_t>& scratch);
 
 }  // namespace striae::reconstruct::detail
