@@ -33,6 +33,10 @@ nlohmann::json ToJson(const reconstruct::ReconstructionReport& r, const SurfaceS
                          {"distance_mm", r.target->middle_mm.z()},
                          {"distance_uncertainty_mm", r.target->distance_sd_mm}};
   }
+  if (r.of_calibration) {
+    document["calibration_uncertainty_mm"] = {{"median", r.of_calibration->median_mm},
+                                              {"largest", r.of_calibration->largest_mm}};
+  }
   for (const auto& [stage, seconds] : r.seconds) document["seconds"][stage] = seconds;
   return document;
 }

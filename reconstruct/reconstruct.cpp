@@ -1,7 +1,9 @@
 #include "reconstruct/reconstruct.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -116,6 +118,24 @@ void CollectWarnings(double saturated_share, SensorReconstruction& out) {
   for (const std::string& warning : out.warnings) out.surface.comments.push_back(WarningComment(warning));
 }
 
+void TellOfCalibration(const Calibration& calibration, SensorReconstruction& out) {
+  constexpr int kAcross = 8;  // places in either direction: it changes slowly
+  const ImageF& depth = out.surface.depth();
+  std::vector<PixelDepth> points;
+  for (int k = 0; k < kAcross * kAcross; ++k) {
+    const int col = (2 * (k % kAcross) + 1) * depth.width() / (2 * kAcross);
+    const int row = (2 * (k / kAcross) + 1) * depth.height() / (2 * kAcross);
+    const float z = depth(col, row);
+    if (!std::isnan(z)) points.push_back({static_cast<double>(col), static_cast<double>(row), static_cast<double>(z)});
+  }
+  out.of_calibration = DepthUncertaintyOf(calibration, points);
+  if (!out.of_calibration) return;
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "calibration uncertainty mm median %.4f largest %.4f",
+                out.of_calibration->median_mm, out.of_calibration->largest_mm);
+  out.surface.comments.emplace_back(text.data());
+}
+
 /// The order of every pixel, and whatever is said of the photograph as a whole.
 ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibration& calibration,
                const ReconstructOptions& options, SensorReconstruction& out) {
@@ -175,6 +195,7 @@ Result<SensorReconstruction> ReconstructOnSensor(Photograph photograph, const Ca
   }
   out.coverage =
       std::min(1.0, static_cast<double>(out.surface.points()) / static_cast<double>(std::max<std::size_t>(1, field)));
+  TellOfCalibration(calibration, out);
   CollectWarnings(phase->saturated_share, out);
   return out;
 }

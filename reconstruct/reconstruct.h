@@ -10,6 +10,7 @@
 #include "core/image.h"
 #include "core/result.h"
 #include "core/surface.h"
+#include "reconstruct/calibration_uncertainty.h"
 #include "reconstruct/order.h"
 #include "reconstruct/phase.h"
 #include "reconstruct/sensor_surface.h"
@@ -38,6 +39,9 @@ struct ReconstructionReport {
   double coverage = 0;               ///< share of the lit field that has a point
   double carrier_period_px = 0;
   StripeDirection direction = StripeDirection::kHorizontal;
+  /// What the calibration may move all points together by; also in the surface's comments. Not part of the points' own
+  /// uncertainty. Empty where the calibration carries no covariance.
+  std::optional<CalibrationDepthUncertainty> of_calibration;
   std::optional<TargetSighting> target;                 ///< the label, when one was looked for and found
   std::vector<std::string> warnings;                    ///< also in the surface's comments, as "warning: ..."
   std::vector<std::pair<std::string, double>> seconds;  ///< per stage, in their order; filled by `clock`

@@ -190,6 +190,7 @@ SensorSurface::SensorSurface(SensorSurface&&) noexcept = default;
 SensorSurface& SensorSurface::operator=(SensorSurface&&) noexcept = default;
 SensorSurface::~SensorSurface() = default;
 
+const ImageF& SensorSurface::depth() const { return grid_->images.depth; }
 std::size_t SensorSurface::points() const { return grid_ ? grid_->first_point.back() : 0; }
 std::size_t SensorSurface::faces() const { return grid_ ? grid_->first_face.back() : 0; }
 

@@ -23,6 +23,8 @@ class SensorSurface {
   SensorSurface& operator=(SensorSurface&&) noexcept;
   ~SensorSurface();
 
+  /// Depth in mm, NaN where there is no point; the grid must be there.
+  [[nodiscard]] const ImageF& depth() const;
   [[nodiscard]] std::size_t points() const;
   [[nodiscard]] std::size_t faces() const;
   /// The grid is given up, so that the lists find room.
