@@ -41,6 +41,16 @@ STRIAE_VECTORISED void ToPolar(const fftwf_complex* signal, int length, float* _
   }
 }
 
+constexpr float kLitShare = 0.25F;  ///< of the brightest background: light has shot noise, darkness has less
+constexpr double kLeastLit = 0.05;  ///< of a line
+
+/// Share of a lane's positions that are at least so bright.
+double LitShare(const float* lane, int length, float least) {
+  int lit = 0;
+  for (int i = 0; i < length; ++i) lit += lane[static_cast<std::size_t>(i) * kLanes] >= least ? 1 : 0;
+  return static_cast<double>(lit) / length;
+}
+
 }  // namespace
 
 LineAnalysis::LineAnalysis(int length, double period_px, double half_width)
@@ -118,11 +128,15 @@ double LineAnalysis::Noise(const std::vector<Lanes<float>>& blocks) const {
   const int first = static_cast<int>(0.4 * padded_), last = static_cast<int>(0.49 * padded_);
   const auto stride = static_cast<std::size_t>(length_);
   Scratch scratch(*this);
-  Lanes<float> background(stride * kLanes);
-  std::vector<double> power;
-  for (const Lanes<float>& light : blocks) {
-    Background(light.data(), background.data(), scratch);
-    SubtractToLines(light.data(), background.data(), length_, scratch.lines.get(), stride);
+  std::vector<Lanes<float>> backgrounds(blocks.size(), Lanes<float>(stride * kLanes));
+  float brightest = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    Background(blocks[b].data(), backgrounds[b].data(), scratch);
+    brightest = std::max(brightest, *std::max_element(backgrounds[b].begin(), backgrounds[b].end()));
+  }
+  std::vector<double> lit, all;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    SubtractToLines(blocks[b].data(), backgrounds[b].data(), length_, scratch.lines.get(), stride);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       Transform(scratch.lines.get() + lane * stride, scratch);
       double sum = 0;
@@ -131,12 +145,15 @@ double LineAnalysis::Noise(const std::vector<Lanes<float>>& blocks) const {
         const double im = scratch.spectrum[static_cast<std::size_t>(k)][1];
         sum += re * re + im * im;
       }
-      power.push_back(sum / (last - first));
+      all.push_back(sum / (last - first));
+      const double share = LitShare(backgrounds[b].data() + lane, length_, kLitShare * brightest);
+      if (share > kLeastLit) lit.push_back(all.back() / share);
     }
   }
   // White noise of variance s2 gives each bin length * s2; the window keeps sum(w^2) of it in either component.
   double kept = 0;
   for (const float w : window_) kept += static_cast<double>(w) * static_cast<double>(w);
+  std::vector<double>& power = lit.size() >= kLanes ? lit : all;
   const auto middle = power.begin() + static_cast<long>(power.size() / 2);
   std::nth_element(power.begin(), middle, power.end());
   return std::sqrt(*middle * kept / 2);

@@ -42,7 +42,9 @@ class LineAnalysis {
   /// the time.
   [[nodiscard]] bool Unlit(const float* light, float least_amplitude, float least_modulation) const;
 
-  /// Standard deviation of the amplitude's two components, from the band above the harmonics: the median over lines.
+  /// Standard deviation of the amplitude's two components where light falls, from the band above the harmonics: the
+  /// median over the lines that it falls on (over all where it falls on none), all of a line's noise put down to its
+  /// lit part.
   [[nodiscard]] double Noise(const std::vector<Lanes<float>>& blocks) const;
 
  private:

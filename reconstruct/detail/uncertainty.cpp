@@ -24,6 +24,8 @@ constexpr std::array<Border, 4> kBorders = {{{0.25, 0.035F}, {0.5, 0.022F}, {1, 
 /// Where the stripes lie closer or wider than the carrier by more than a tenth, a step in depth may be smoothed over:
 /// stripes per share of the period beyond it. Found on the same bodies, at chins and ears.
 constexpr float kLargestShift = 0.1F, kSteep = 0.3F;
+constexpr double kSmoothed =
+    0.75;  ///< of the noise is left by the smoothing along the stripes, found on the same bodies
 constexpr float kFloor = 0.0004F;  ///< stripes; texture, and what does not follow from the sensor's noise
 
 struct Terms {
@@ -90,8 +92,8 @@ void OrderUncertainty(const ImageF& order, StripeDirection direction, double per
   const int step = std::max(1, static_cast<int>(std::lround(period_px / 4)));
   // H = (1 + cos(pi (f - f0) / W)) / 2 has the second moment -H''(f0) / (4 pi^2) = 1 / (8 W^2), W = half_width / T.
   const double moment = period_px * period_px / (8 * window_half_width * window_half_width);
-  const Terms terms{static_cast<float>(noise / (2 * std::numbers::pi)), static_cast<float>(moment / 2 / (step * step)),
-                    static_cast<float>(period_px / (2 * step))};
+  const Terms terms{static_cast<float>(kSmoothed * noise / (2 * std::numbers::pi)),
+                    static_cast<float>(moment / 2 / (step * step)), static_cast<float>(period_px / (2 * step))};
   const bool horizontal = direction == StripeDirection::kHorizontal;
   const int width = order.width(), height = order.height();
   ParallelBlocks(height, [&](int, int first, int last) {
