@@ -110,7 +110,8 @@ Result<Record::Added> Record::AddCapture(const Capture& capture, std::span<const
     // Asked before the file is kept, so that a refusal leaves no object behind, and again under the write lock.
     RefuseUnlessAllowed(database, capture.session);
     FindOrRefuseElsewhere(database, added);
-    detail::Unwrap(impl_->objects.Put(bytes));  // also for a photograph already there: a lost object comes back so
+    // Also for a photograph already there: a lost object comes back so.
+    detail::Unwrap(impl_->objects.Put(bytes, added.sha256));
     Change change(database, stamp);
     RefuseUnlessAllowed(database, capture.session);
     if (auto there = FindOrRefuseElsewhere(database, added)) {

@@ -33,7 +33,7 @@ Result<Derived> Record::AddDerived(const Derived& derived, std::span<const std::
     if (there && impl_->objects.Verify(there->object)) return *there;
     const auto frame = derived.kind == "surface" ? detail::Compress(bytes) : std::vector<std::uint8_t>();
     const std::span<const std::uint8_t> content = frame.empty() ? bytes : std::span<const std::uint8_t>(frame);
-    kept.object = detail::Unwrap(impl_->objects.Put(content));
+    kept.object = detail::Unwrap(frame.empty() ? impl_->objects.Put(bytes, kept.sha256) : impl_->objects.Put(frame));
     if (there && there->object == kept.object) return *there;  // it was lost from objects/ and is back now
     Change change(database, stamp);
     detail::InsertObject(change, database, kept.object, content.size(), stamp);

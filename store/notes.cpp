@@ -3,6 +3,7 @@
 #include "store/detail/change.h"
 #include "store/detail/impl.h"
 #include "store/detail/require.h"
+#include "store/detail/strike.h"
 
 namespace striae::store {
 namespace {
@@ -38,7 +39,10 @@ StudyNote InForce(Database& database, const NoteId& id) {
   return *std::move(found);
 }
 
-void Insert(Change& change, const StudyNote& n, bool in_error, const std::string& reason, const Stamp& stamp) {
+}  // namespace
+
+void detail::InsertNote(Change& change, const StudyNote& n, bool in_error, const std::string& reason,
+                        const Stamp& stamp) {
   change.Insert("note",
                 {{"id", ToValue(n.id)},
                  {"entity", ToValue(n.about.entity)},
@@ -53,8 +57,6 @@ void Insert(Change& change, const StudyNote& n, bool in_error, const std::string
                 reason);
 }
 
-}  // namespace
-
 Status AddNote(Record& record, const StudyNote& note, const std::string& reason, const Stamp& stamp) {
   return Guarded([&] {
     detail::RequireText(note.text, "a note");
@@ -65,23 +67,14 @@ Status AddNote(Record& record, const StudyNote& note, const std::string& reason,
       detail::RequireReason(reason, "a correction");
       InForce(database, *note.supersedes);
     }
-    Insert(change, note, false, reason, stamp);
+    detail::InsertNote(change, note, false, reason, stamp);
     change.Commit();
   });
 }
 
 Status StrikeNote(Record& record, const NoteId& id, const NoteId& new_id, const std::string& reason,
                   const Stamp& stamp) {
-  return Guarded([&] {
-    detail::RequireReason(reason, "a correction");
-    Database& database = Access::Of(record).database;
-    Change change(database, stamp);
-    StudyNote struck = InForce(database, id);
-    struck.id = new_id;
-    struck.supersedes = id;
-    Insert(change, struck, true, reason, stamp);
-    change.Commit();
-  });
+  return detail::Strike(record, InForce, detail::InsertNote, id, new_id, reason, stamp);
 }
 
 Result<std::vector<StudyNote>> Notes(Record& record, std::optional<std::string> about) {

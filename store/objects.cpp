@@ -70,9 +70,10 @@ bool ObjectStore::Has(const Sha256& sha256) const {
   return fs::is_regular_file(PathOf(sha256), code);
 }
 
-Result<Sha256> ObjectStore::Put(std::span<const std::uint8_t> bytes) const {
+Result<Sha256> ObjectStore::Put(std::span<const std::uint8_t> bytes) const { return Put(bytes, HashOf(bytes)); }
+
+Result<Sha256> ObjectStore::Put(std::span<const std::uint8_t> bytes, const Sha256& sha256) const {
   return detail::Guarded([&] {
-    const Sha256 sha256 = HashOf(bytes);
     const fs::path target = PathOf(sha256);
     if (!Has(sha256)) {
       MakeFolder(target.parent_path());

@@ -29,6 +29,8 @@ class ObjectStore {
   /// kill at any instant leaves the object whole or absent. The same bytes again change nothing. kIo when the disk is
   /// full or read-only; kRecordDamaged when the object is there already with altered content.
   [[nodiscard]] Result<Sha256> Put(std::span<const std::uint8_t> bytes) const;
+  /// The same for bytes that the caller has hashed: a photograph is hashed once.
+  [[nodiscard]] Result<Sha256> Put(std::span<const std::uint8_t> bytes, const Sha256& sha256) const;
 
   /// Keeps the content of a file, read block by block, under the name that it must have: kRecordDamaged, and nothing is
   /// kept, when the bytes are others.

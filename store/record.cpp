@@ -1,6 +1,10 @@
 #include "store/record.h"
 
+#include <cerrno>
+#include <cstring>
 #include <system_error>
+
+#include <unistd.h>
 
 #include "store/detail/change.h"
 #include "store/detail/impl.h"
@@ -66,6 +70,25 @@ void WriteFirstRows(const fs::path& file, const Study& study, const Site& site, 
   database.Execute("PRAGMA journal_mode=WAL");  // stays with the file
 }
 
+/// SQLite says "disk I/O error" or "readonly database"; what a person can do something about is looked up.
+Error Explained(Error error, const fs::path& folder) {
+  for (const fs::path& path : {folder, folder / kDatabaseName, folder / kObjectsName}) {
+    const int wanted = R_OK | W_OK | (fs::is_directory(path) ? X_OK : 0);
+    if (::access(path.c_str(), wanted) == 0) continue;
+    error.message = path.string() + " cannot be written by this user (" + std::strerror(errno) +
+                    "); reading needs it too, for the log beside study.db: ask who keeps the study, or work on a "
+                    "restored backup (striae restore). " +
+                    error.message;
+    return error;
+  }
+  constexpr std::uintmax_t kLeast = 256 * 1024;  // study.db-shm and the log of a small change
+  std::error_code code;
+  if (fs::space(folder, code).available < kLeast && !code) {
+    error.message = "no room is left on the disk of " + folder.string() + ": make room, then repeat. " + error.message;
+  }
+  return error;
+}
+
 }  // namespace
 
 Record::Record(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -108,7 +131,7 @@ Result<Record> Record::Create(const fs::path& folder, const Study& study, const 
 }
 
 Result<Record> Record::Open(const fs::path& folder, const Stamp& stamp) {
-  return detail::Guarded([&] {
+  auto opened = detail::Guarded([&] {
     const fs::path file = folder / kDatabaseName;
     if (!fs::exists(file)) {
       Refuse(ErrorCode::kNotFound,
@@ -127,6 +150,8 @@ Result<Record> Record::Open(const fs::path& folder, const Stamp& stamp) {
     auto objects = detail::Unwrap(ObjectStore::Open(folder / kObjectsName));
     return Record(std::unique_ptr<Impl>(new Impl{folder, std::move(objects), std::move(database)}));
   });
+  if (!opened && opened.error().code == ErrorCode::kIo) return Fail(Explained(opened.error(), folder));
+  return opened;
 }
 
 Result<Study> Record::GetStudy() {

@@ -77,9 +77,10 @@ class Record {
   /// The newest calibration in force on that day; kRecordRefused when there is none.
   Result<CalibrationReference> CalibrationOn(const DeviceId& device, const Date& day);
 
-  // Sessions. `session.visit` is ignored: the visit of that name is used, or made with `new_visit`.
+  // Sessions. `session.visit` is ignored: the visit of that name is used, or made with `new_visit`. What deviates from
+  // the plan is noted about the session in the same transaction.
   Result<Session> OpenSession(Session session, std::string_view visit_name, const VisitId& new_visit,
-                              const Stamp& stamp);
+                              const Stamp& stamp, const std::string& deviation = "");
   Status CloseSession(const SessionId& id, const Stamp& stamp);
   /// Lets photographs in again, with a reason.
   Status ReopenSession(const SessionId& id, const std::string& reason, const Stamp& stamp);

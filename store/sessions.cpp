@@ -1,8 +1,10 @@
 // Sessions: one subject before the camera, at one visit.
 #include "store/detail/change.h"
+#include "store/detail/codec.h"
 #include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/detail/require.h"
+#include "store/detail/strike.h"
 
 namespace striae::store {
 
@@ -13,7 +15,7 @@ using detail::Refuse;
 using detail::ToValue;
 
 Result<Session> Record::OpenSession(Session session, std::string_view visit_name, const VisitId& new_visit,
-                                    const Stamp& stamp) {
+                                    const Stamp& stamp, const std::string& deviation) {
   return Guarded([&] {
     if (visit_name.empty() || visit_name.size() > 64) {
       Refuse(ErrorCode::kUsage, "a session needs a visit of 1 to 64 characters, such as V1");
@@ -38,6 +40,12 @@ Result<Session> Record::OpenSession(Session session, std::string_view visit_name
                               {"site_time_zone", ToValue(session.site_time_zone)},
                               {"camera_clock_offset_s", ToValue(session.camera_clock_offset_s)},
                               {"day", ToValue(session.day)}});
+    if (!deviation.empty()) {
+      const std::string id = session.id.ToString();
+      const NoteId note(detail::UuidFrom({"deviation", id}));
+      const Date day = session.day ? *session.day : Date::Of(session.opened_at);
+      detail::InsertNote(change, {note, {"session", id}, true, day, deviation, {}, {}, {}}, false, "", stamp);
+    }
     change.Commit();
     return session;
   });

@@ -4,6 +4,7 @@
 #include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/detail/require.h"
+#include "store/detail/strike.h"
 
 namespace striae::store {
 namespace {
@@ -67,16 +68,7 @@ Status AddTreatment(Record& record, const Treatment& treatment, const std::strin
 
 Status StrikeTreatment(Record& record, const TreatmentId& id, const TreatmentId& new_id, const std::string& reason,
                        const Stamp& stamp) {
-  return Guarded([&] {
-    detail::RequireReason(reason, "a correction");
-    Database& database = Access::Of(record).database;
-    Change change(database, stamp);
-    Treatment struck = InForce(database, id);
-    struck.id = new_id;
-    struck.supersedes = id;
-    Insert(change, struck, true, reason, stamp);
-    change.Commit();
-  });
+  return detail::Strike(record, InForce, Insert, id, new_id, reason, stamp);
 }
 
 Result<std::vector<Treatment>> Treatments(Record& record, std::optional<SubjectId> subject) {

@@ -104,6 +104,12 @@ Status AddMissing(store::Record& record, Reconciled& all) {
 }
 
 Status Reconcile(Context& run, const Options& options) {
+  if (options.folder.empty()) {
+    return Fail(
+        ErrorCode::kUsage,
+        "name the card's folder: put the camera's card into a reader, then 'striae reconcile /media/NIKON_D90'; "
+        "the card of a camera on the cable is not listed, because the camera then takes no photographs");
+  }
   auto record = OpenStudy(run);
   if (!record) return Fail(record.error());
   Reconciled all;
@@ -148,7 +154,7 @@ void AddCommand_reconcile(CLI::App& root, Context& context) {
       "changed; exit code 0 also when something differs.",
       "striae -C trial reconcile /media/NIKON_D90");
   auto options = std::make_shared<Options>();
-  command->add_option("DIR", options->folder, "The card's folder; folders below it count as well")->required();
+  command->add_option("DIR", options->folder, "The card's folder; folders below it count as well");
   command->add_option("--session", options->session, "Also name the photographs of this session that are not there");
   OnRun(command, context, [options](Context& run) { return Reconcile(run, *options); });
 }

@@ -1,8 +1,10 @@
 // `striae results`: the study's measurements.
+#include "store/results.h"
+
 #include <cstdio>
 
+#include "app/listing.h"
 #include "app/study.h"
-#include "store/json.h"
 
 namespace striae::app {
 namespace {
@@ -47,16 +49,11 @@ Status Print(Context& run, const Options& options) {
   if (!record) return Fail(record.error());
   const auto filter = FilterOf(*record, options);
   if (!filter) return Fail(filter.error());
-  const auto rows = record->Results(*filter);
-  if (!rows) return Fail(rows.error());
-  nlohmann::json list = nlohmann::json::array();
-  std::string text;
-  for (const store::ResultRow& row : *rows) {
-    list.push_back(store::ToJson(row));
-    text += (text.empty() ? "" : "\n") + LineOf(row);
-  }
-  run.Output({{"measurements", list}}, text.empty() ? "no measurements; 'striae status' says what is pending" : text);
-  return {};
+  Listing listing(run, "measurements", "no measurements; 'striae status' says what is pending");
+  const Status read = store::EachResult(*record, *filter, [&](const store::ResultRow& row, const std::string& json) {
+    listing.Add(listing.json() ? json : LineOf(row));
+  });
+  return read ? listing.Print() : read;
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // `striae session open|list|close|reopen`: one subject before the camera, at one visit.
+#include "app/listing.h"
 #include "app/local_time.h"
 #include "app/study.h"
-#include "store/annotations.h"
 #include "store/json.h"
 
 namespace striae::app {
@@ -45,13 +45,6 @@ Result<std::string> DeviationOf(store::Record& record, const Session& session, c
          (*state)->earliest->ToString() + " to " + (*state)->latest->ToString();
 }
 
-Status NoteDeviation(store::Record& record, const Session& session, const std::string& text,
-                     const store::Stamp& stamp) {
-  return store::AddNote(
-      record, {NewId<store::NoteId>(), {"session", session.id.ToString()}, true, *session.day, text, "", {}, {}}, "",
-      stamp);
-}
-
 Status Open(Context& run, const Options& options) {
   auto record = OpenStudy(run);
   if (!record) return Fail(record.error());
@@ -72,12 +65,9 @@ Status Open(Context& run, const Options& options) {
   if (const Status set = SetTime(session, options.date, stamp.now); !set) return Fail(set.error());
   const auto deviation = DeviationOf(*record, session, options);
   if (!deviation) return Fail(deviation.error());
-  const auto opened = record->OpenSession(session, options.visit, NewId<VisitId>(), stamp);
+  const auto opened = record->OpenSession(session, options.visit, NewId<VisitId>(), stamp, *deviation);
   if (!opened) return Fail(opened.error(), "opening a session");
-  if (!deviation->empty()) {
-    if (const Status noted = NoteDeviation(*record, *opened, *deviation, stamp); !noted) return Fail(noted.error());
-    run.Note("deviation noted: " + *deviation);
-  }
+  if (!deviation->empty()) run.Note("deviation noted: " + *deviation);
   if (!subject->HasActiveConsent()) {
     run.Note("note: " + subject->pseudonym + " has no active consent; photographs will be refused until it is entered");
   }
@@ -96,19 +86,17 @@ Status List(Context& run, const Options& options) {
   }
   const auto sessions = record->Sessions(only);
   if (!sessions) return Fail(sessions.error());
-  nlohmann::json list = nlohmann::json::array();
-  std::string text;
+  Listing listing(run, "sessions", "no sessions yet");
   for (const Session& session : *sessions) {
     const auto subject = record->SubjectById(session.subject);
     if (!subject) return Fail(subject.error());
     const auto visit = record->VisitById(session.visit);
     if (!visit) return Fail(visit.error());
-    list.push_back(Placed(session, *subject, *visit));
-    text += (text.empty() ? "" : "\n") + session.id.ToString() + "  " + subject->pseudonym + "  " + visit->name + "  " +
-            session.opened_at.ToString() + (session.closed_at ? "  closed" : "  open");
+    listing.Add(listing.json() ? Placed(session, *subject, *visit).dump()
+                               : session.id.ToString() + "  " + subject->pseudonym + "  " + visit->name + "  " +
+                                     session.opened_at.ToString() + (session.closed_at ? "  closed" : "  open"));
   }
-  run.Output({{"sessions", list}}, text.empty() ? "no sessions yet" : text);
-  return {};
+  return listing.Print();
 }
 
 Status Close(Context& run, const Options& options) {

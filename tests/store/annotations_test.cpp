@@ -1,6 +1,8 @@
 // Treatments, notes, queries and exclusions: added, never replaced.
 #include "store/annotations.h"
 
+#include "store/json.h"
+#include "store/results.h"
 #include "tests/store/small_study.h"
 
 namespace striae::testing {
@@ -80,6 +82,28 @@ TEST(Query, IsOpenedAnsweredAndClosed) {
               FailsWith(ErrorCode::kUsage, "needs a text"));
 }
 
+TEST(Deviation, IsNotedWithItsSessionOrNeitherIsThere) {
+  SmallStudy study;
+  const Subject subject = study.EnrolWithConsent("S001");
+  Session session;
+  session.id = CountedId<SessionId>();
+  session.subject = subject.id;
+  session.operator_name = "coordinator";
+  session.opened_at = NextStamp().now;
+  session.day = Date{2026, 5, 4};
+  ASSERT_THAT(study->OpenSession(session, "V7", CountedId<VisitId>(), NextStamp(), "unscheduled visit V7: pain"),
+              IsOk());
+  const auto notes = store::Notes(study.record(), session.id.ToString());
+  ASSERT_EQ(notes->size(), 1U);
+  EXPECT_TRUE(notes->front().deviation);
+  EXPECT_EQ(notes->front().date, (Date{2026, 5, 4}));
+  // The same session again is refused by its key, and its note is not there twice.
+  const auto rows = study->Head()->sequence;
+  EXPECT_FALSE(study->OpenSession(session, "V8", CountedId<VisitId>(), NextStamp(), "once more"));
+  EXPECT_EQ(study->Head()->sequence, rows);
+  EXPECT_EQ(store::Notes(study.record())->size(), 1U);
+}
+
 class Excluded : public ::testing::Test {
  protected:
   [[nodiscard]] store::ResultRow Result(const std::string& name) {
@@ -92,6 +116,28 @@ class Excluded : public ::testing::Test {
   SmallStudy study_;
   Capture capture_ = study_.Import(study_.Open(study_.EnrolWithConsent("S001")), "photograph");
 };
+
+TEST_F(Excluded, StandsInTheListOfAnyLengthAsInTheOneInMemory) {
+  ASSERT_THAT(study_->AddReport(CountedId<ReportId>(), capture_.id, WoundReport(capture_, 4.0), NextStamp()), IsOk());
+  ASSERT_THAT(study_->AddReport(CountedId<ReportId>(), capture_.id, WoundReport(capture_, 4.5), NextStamp()), IsOk());
+  const Record::Found volume{"measurement", Result("volume").id.ToString()};
+  ASSERT_THAT(store::Exclude(study_.record(), CountedId<store::ExclusionId>(), volume, "\"moved\"", NextStamp()),
+              IsOk());
+  for (const store::ResultFilter& filter : {store::ResultFilter{}, store::ResultFilter{{}, {}, true}}) {
+    nlohmann::json whole = nlohmann::json::array(), pieces = nlohmann::json::array();
+    const auto rows = *study_->Results(filter);
+    for (const store::ResultRow& row : rows) whole.push_back(store::ToJson(row));
+    ASSERT_THAT(store::EachResult(study_.record(), filter,
+                                  [&](const store::ResultRow& row, const std::string& json) {
+                                    pieces.push_back(nlohmann::json::parse(json));
+                                    EXPECT_EQ(pieces.back().at("name"), row.measurement.name);
+                                    EXPECT_EQ(pieces.back().at("value"), row.measurement.value);
+                                    EXPECT_EQ(pieces.back().value("reason", ""), row.measurement.reason);
+                                  }),
+                IsOk());
+    EXPECT_EQ(pieces, whole);
+  }
+}
 
 TEST_F(Excluded, ACaptureTakesAllItsNumbersWithItAndTheyStayListed) {
   ASSERT_THAT(study_->AddReport(CountedId<ReportId>(), capture_.id, WoundReport(capture_, 4.0), NextStamp()), IsOk());

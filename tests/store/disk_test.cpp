@@ -1,6 +1,7 @@
 // A disk that is full, and one that became read-only: a clear message, and nothing is lost. Real file systems, which
 // only root can make (skipped otherwise), and a limit of the system's and another user, which everybody can have.
 #include <csignal>
+#include <fstream>
 
 #include <sys/mount.h>
 #include <sys/resource.h>
@@ -64,6 +65,18 @@ TEST_F(SmallDisk, WhenFullRefusesAndLosesNothing) {
   EXPECT_TRUE(check->Passed()) << check->findings.front().where << " " << check->findings.front().what;
 }
 
+TEST_F(SmallDisk, WithNoByteLeftIsNamedWhenTheStudyIsOpened) {
+  {
+    std::ofstream filler(disk_ / "filler");
+    while (filler.write(std::string(4096, 'x').data(), 4096).flush()) {
+    }
+  }
+  EXPECT_THAT(store::Record::Open(disk_ / "study", NextStamp()),
+              FailsWith(ErrorCode::kIo, "no room is left on the disk"));
+  fs::remove(disk_ / "filler");
+  EXPECT_TRUE(Open().Check()->findings.empty());
+}
+
 TEST_F(SmallDisk, WhenFullABackupToItIsRecognisedAsUnfinished) {
   auto record = Open();
   WriteBytes(disk_ / "filler", std::vector<std::uint8_t>(1'300'000));
@@ -83,7 +96,7 @@ TEST_F(SmallDisk, WhenReadOnlyRefusesAndSaysWhatToCheck) {
   const auto added =
       record ? Status(record->AddSubject({CountedId<SubjectId>(), "S002", study_.site(), {}, {}}, NextStamp()))
              : Status(Fail(record.error()));
-  EXPECT_THAT(added, FailsWith(ErrorCode::kIo, "check the folder's permissions and the disk"));
+  EXPECT_THAT(added, FailsWith(ErrorCode::kIo, "cannot be written by this user (Read-only file system)"));
   const fs::path copy = study_.dir() / "copy";
   EXPECT_THAT(store::Restore(disk_ / "study", copy, {}, NextStamp()), IsOk()) << "a backup on a read-only medium";
   MakeReadOnly(false);
@@ -195,7 +208,8 @@ TEST(ReadOnlyFolder, RefusesAChangeAndSaysWhatToCheck) {
       return record ? SaidOf(work(*record)) : SaidOf(record);
     });
   };
-  const auto advice = ::testing::HasSubstr("permissions");
+  const auto advice = ::testing::AllOf(::testing::HasSubstr("permissions"),
+                                       ::testing::HasSubstr("cannot be written by this user (Permission denied)"));
   EXPECT_THAT(as_nobody([&](store::Record& record) {
                 return record.AddCapture(SmallStudy::Photograph(session), Bytes("photo"), NextStamp());
               }),
