@@ -34,7 +34,7 @@ TEST(Thinning, KeepsItsSpacingUnderNoiseLargerThanTheGrid) {
 
 TEST(Thinning, AveragesNoise) {
   double squares = 0;
-  const Points points = Thin(Wall(0.8, 0), 2);
+  const Points points = Thin(Wall(0.8, 0), 2).point;
   for (const auto& p : points) squares += (p.z() - 2000.0) * (p.z() - 2000.0);
   // 64 points a block: 0.8 / 8 = 0.1 mm, known to 1.2 % from 3600 blocks.
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(points.size())), 0.1, 0.01);
@@ -42,7 +42,7 @@ TEST(Thinning, AveragesNoise) {
 
 TEST(Thinning, NeverPutsAPointBetweenTwoSurfaces) {
   // The step runs through the middle of blocks (column 244 of 240..247).
-  for (const auto& p : Thin(Wall(0, 50), 2)) {
+  for (const auto& p : Thin(Wall(0, 50), 2).point) {
     EXPECT_TRUE(std::abs(p.z() - 2000) < 0.01 || std::abs(p.z() - 2050) < 0.01) << p.z();
   }
 }

@@ -12,7 +12,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array<Stage, 2> kCoarse{{{60, 35, 6}, {30, 35, 10}}};
 // The last gate is narrow: where normals still differ by more than 20 degrees, the Fourier window rang (eyes, lips, the
 // field's rim), and leaving that out halved the error through photographs.
-constexpr std::array<Stage, 3> kFine{{{30, 35, 15}, {12, 35, 20}, {6, 20, 30}}};
+constexpr std::array<Stage, 3> kFine{{{30, 35, 15}, {12, 35, 15}, {6, 20, 30, true}}};
 constexpr double kCoarseGateMm = 15;  // two and a half coarse spacings
 constexpr double kFineGateMm = 6;
 constexpr std::size_t kFinalists = 3;

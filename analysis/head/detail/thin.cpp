@@ -28,10 +28,15 @@ double Spacing(const Surface& s) {
 struct Block {
   float nearest = std::numeric_limits<float>::infinity();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double sd = 0;
   int count = 0;
 };
 
-Points ThinGrid(const Surface& s, int stride, double spacing_mm) {
+float SdOf(const Surface& s, std::size_t i) {
+  return s.uncertainty_mm.size() == s.size() ? s.uncertainty_mm[i] : kUnsaidSdMm;
+}
+
+Thinned ThinGrid(const Surface& s, int stride, double spacing_mm) {
   const int blocks_wide = s.sensor_width_px / stride + 1;
   const int blocks_high = s.sensor_height_px / stride + 1;
   std::vector<Block> blocks(static_cast<std::size_t>(blocks_wide) * static_cast<std::size_t>(blocks_high));
@@ -51,19 +56,21 @@ Points ThinGrid(const Surface& s, int stride, double spacing_mm) {
     Block& block = block_of(i);
     if (s.point_in_camera[i].z() > block.nearest + side) continue;
     block.sum += s.point_in_camera[i].cast<double>();
+    block.sd += SdOf(s, i);
     ++block.count;
   }
-  Points thinned;
+  Thinned thinned;
   for (const Block& block : blocks) {
     // A quarter of the block: fewer are the frayed edge of a region.
     if (block.count > 0 && 4 * block.count >= stride * stride) {
-      thinned.push_back((block.sum / block.count).cast<float>());
+      thinned.point.push_back((block.sum / block.count).cast<float>());
+      thinned.sd_mm.push_back(static_cast<float>(block.sd / block.count));
     }
   }
   return thinned;
 }
 
-Points ThinVoxels(const Surface& s, double spacing_mm) {
+Thinned ThinVoxels(const Surface& s, double spacing_mm) {
   using Key = std::array<int, 3>;
   std::vector<std::pair<Key, std::uint32_t>> keyed(s.size());
   for (std::uint32_t i = 0; i < keyed.size(); ++i) {
@@ -73,14 +80,17 @@ Points ThinVoxels(const Surface& s, double spacing_mm) {
     keyed[i].second = i;
   }
   std::sort(keyed.begin(), keyed.end());
-  Points thinned;
+  Thinned thinned;
   for (std::size_t begin = 0; begin < keyed.size();) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double sd = 0;
     std::size_t end = begin;
     for (; end < keyed.size() && keyed[end].first == keyed[begin].first; ++end) {
       sum += s.point_in_camera[keyed[end].second].cast<double>();
+      sd += SdOf(s, keyed[end].second);
     }
-    thinned.push_back((sum / static_cast<double>(end - begin)).cast<float>());
+    thinned.point.push_back((sum / static_cast<double>(end - begin)).cast<float>());
+    thinned.sd_mm.push_back(static_cast<float>(sd / static_cast<double>(end - begin)));
     begin = end;
   }
   return thinned;
@@ -92,14 +102,16 @@ Cloud Select(const Cloud& cloud, const std::vector<std::uint32_t>& indices) {
   Cloud selected;
   selected.point.reserve(indices.size());
   selected.normal.reserve(indices.size());
+  selected.sd_mm.reserve(indices.size());
   for (const std::uint32_t i : indices) {
     selected.point.push_back(cloud.point[i]);
     selected.normal.push_back(cloud.normal[i]);
+    selected.sd_mm.push_back(cloud.sd_mm[i]);
   }
   return selected;
 }
 
-Points Thin(const Surface& surface, double spacing_mm) {
+Thinned Thin(const Surface& surface, double spacing_mm) {
   const double spacing = surface.HasGrid() ? Spacing(surface) : 0;
   if (spacing <= 0) return ThinVoxels(surface, spacing_mm);
   const int stride = std::max(1, static_cast<int>(std::lround(spacing_mm / spacing)));

@@ -24,15 +24,19 @@ struct Equations {
 
 Eigen::Vector3d Middle(std::span<const Pair> pairs) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Pair& pair : pairs) middle += pair.moved;
-  return middle / static_cast<double>(std::max<std::size_t>(1, pairs.size()));
+  double sum = 0;
+  for (const Pair& pair : pairs) {
+    middle += pair.weight * pair.moved;
+    sum += pair.weight;
+  }
+  return sum > 0 ? Eigen::Vector3d(middle / sum) : middle;
 }
 
 void Add(const Pair& pair, const Eigen::Vector3d& middle, Equations& equations) {
   Vector6 row;
   row << (pair.moved - middle).cross(pair.normal), pair.normal;
-  equations.matrix += row * row.transpose();
-  equations.right -= row * pair.ToPlane();
+  equations.matrix += pair.weight * row * row.transpose();
+  equations.right -= pair.weight * pair.ToPlane() * row;
 }
 
 }  // namespace
@@ -41,12 +45,16 @@ double Observability_mm(std::span<const Pair> pairs) {
   if (pairs.size() < 6) return 0;
   const Eigen::Vector3d middle = Middle(pairs);
   Equations all;
-  for (const Pair& pair : pairs) Add(pair, middle, all);
+  double sum = 0;
+  for (const Pair& pair : pairs) {
+    Add(pair, middle, all);
+    sum += pair.weight;
+  }
   const Eigen::Matrix3d turn = all.matrix.topLeftCorner<3, 3>(), mixed = all.matrix.topRightCorner<3, 3>();
   const Eigen::Matrix3d shift = all.matrix.bottomRightCorner<3, 3>();
   // The pseudo-inverse leaves free shifts of a plane free.
   const Eigen::Matrix3d inverse = shift.completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::Matrix3d rest = (turn - mixed * inverse * mixed.transpose()) / static_cast<double>(pairs.size());
+  const Eigen::Matrix3d rest = (turn - mixed * inverse * mixed.transpose()) / std::max(sum, 1e-12);
   const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(rest).eigenvalues().minCoeff();
   return std::sqrt(std::max(0.0, smallest));
 }
