@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "reconstruct/detail/order_bridge.h"
 #include "reconstruct/detail/order_evidence.h"
+#include "reconstruct/detail/order_parting.h"
 
 namespace striae::reconstruct {
 namespace {
@@ -14,18 +16,29 @@ namespace {
 constexpr int kMostAnchored = 64;      ///< regions that are asked for evidence of their own
 constexpr double kLeastMargin = 0.4;   ///< below it a region without an anchor of its own is left out
 constexpr double kPartedMargin = 0.5;  ///< at most, of a part that follows its sheet
+constexpr double kProvenMargin = 0.9;  ///< of a part between two anchors
+
+/// +1 where shadows fall towards larger orders: the projector is on the side of the small ones.
+int Away(const Calibration& calibration) {
+  const Eigen::Vector3d& center = calibration.projector.center_mm;
+  return (calibration.direction == StripeDirection::kHorizontal ? center.y() : center.x()) > 0 ? -1 : 1;
+}
 
 /// The regions' orders while they are being settled.
 class Resolver {
  public:
-  Resolver(const PhaseResult& phase, const Calibration& calibration, double distance_mm, std::vector<int> sheets)
+  Resolver(const PhaseResult& phase, const Calibration& calibration, double distance_mm, std::vector<int> sheets = {},
+           std::vector<detail::Link> links = {})
       : scene_{phase, calibration, StripeOptics(calibration)},
         distance_mm_(distance_mm),
         sheets_(std::move(sheets)),
+        links_(std::move(links)),
+        away_(Away(calibration)),
         count_(phase.unwrapped.regions),
         asked_(std::min(count_, kMostAnchored)),
         orders_(static_cast<std::size_t>(count_)),
         settled_(static_cast<std::size_t>(count_), false),
+        bounds_(static_cast<std::size_t>(count_)),
         depth_(scene_) {
     for (std::size_t r = 0; r < orders_.size(); ++r) orders_[r].points = phase.unwrapped.pixels.at(r);
     samples_ = detail::SampleRegions(scene_, asked_);
@@ -42,33 +55,50 @@ class Resolver {
     }
   }
 
+  /// Where light goes on away from the projector nothing falls back; so what lies between two anchors with one number
+  /// has it too.
+  void Squeeze() {
+    for (std::size_t r = 0; r < orders_.size(); ++r) {
+      if (settled_[r] && orders_[r].warning.empty()) bounds_[r] = {orders_[r].offset, orders_[r].offset};
+    }
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const detail::Link& link : links_) {
+        if (!link.lit || !OneSheet(static_cast<std::size_t>(link.from), static_cast<std::size_t>(link.to))) continue;
+        // Nearer is the larger order where shadows fall towards larger orders.
+        Bounds &less = bounds_[static_cast<std::size_t>(away_ > 0 ? link.from : link.to)],
+               &more = bounds_[static_cast<std::size_t>(away_ > 0 ? link.to : link.from)];
+        if (more.least < less.least) more.least = less.least, changed = true;
+        if (less.most > more.most) less.most = more.most, changed = true;
+      }
+    }
+    for (int r = 0; r < count_; ++r) {
+      const auto i = static_cast<std::size_t>(r);
+      if (settled_[i] || bounds_[i].least != bounds_[i].most) continue;
+      RegionOrder found;
+      found.source = OrderSource::kBridge;
+      found.offset = bounds_[i].least;
+      found.margin = kProvenMargin;
+      Settle(r, std::move(found));
+    }
+  }
+
   /// What has no anchor, always with a warning: the largest region from the distance when nothing is settled, the
   /// others beside what is.
   void Continue() {
     for (int r = 0; r < count_; ++r) {
       if (settled_[static_cast<std::size_t>(r)]) continue;
-      std::optional<RegionOrder> found;
-      if (r > 0) found = FromSheet(r);
+      std::optional<RegionOrder> found = FromShadow(r);
+      if (!found) found = FromSheet(r);
+      const bool is_relative = found.has_value();
       if (r > 0 && !found) found = depth_.Continued(r);
       if (!found && r < asked_)
         found = detail::FromDistance(scene_, samples_[static_cast<std::size_t>(r)], distance_mm_);
-      if (r > 0 && (!found || found->margin < kLeastMargin)) {
+      if (r > 0 && !is_relative && (!found || found->margin < kLeastMargin)) {
         found = RegionOrder{};
         found->warning = "nothing fixes this region's whole stripe number; it is left out of the surface";
       }
       Settle(r, *std::move(found));
-    }
-  }
-
-  /// Regions with a shadow inside that something before them may cast.
-  void DoubtShadows() {
-    constexpr int kFewestLines = 8;
-    const auto lines = detail::ShadowedLines(scene_.phase, asked_);
-    for (std::size_t r = 0; r < lines.size(); ++r) {
-      if (lines[r] < kFewestLines || !orders_[r].warning.empty()) continue;
-      orders_[r].warning =
-          "a shadow as wide as a stripe or more falls on it: what casts it, and is joined to it, may be off by whole "
-          "stripes; look for steps in depth that should not be there";
     }
   }
 
@@ -94,22 +124,51 @@ class Resolver {
       if (r == own || !settled_[r] || !OneSheet(r, own) || orders_[r].source == OrderSource::kNone) continue;
       RegionOrder found;
       found.source = OrderSource::kBridge;
-      found.offset = orders_[r].offset;
+      found.offset = std::clamp(orders_[r].offset, bounds_[own].least, std::max(bounds_[own].least, bounds_[own].most));
       found.margin = std::min(kPartedMargin, orders_[r].margin);
       found.warning =
-          "the stripes are dimmed all along where it joins the rest, or it hangs on it by a narrow neck: its whole "
-          "stripe number goes on from there, and a step of whole stripes in depth would go unseen";
+          "the stripes are dimmed or bent where it joins the rest, or it hangs on it by a narrow neck: its whole "
+          "stripe "
+          "number goes on from there, and a step of whole stripes in depth would go unseen";
       return found;
     }
     return std::nullopt;
   }
 
+  /// The number that a shadow between it and a settled region gives: the sheet of light at the shadow's end is the one
+  /// that passes the edge which casts it.
+  [[nodiscard]] std::optional<RegionOrder> FromShadow(int region) const {
+    std::optional<RegionOrder> found;
+    std::size_t largest = 0;
+    for (const detail::Link& link : links_) {
+      if (!link.shadow || (link.from != region && link.to != region)) continue;
+      const auto other = static_cast<std::size_t>(link.from == region ? link.to : link.from);
+      if (!settled_[other] || orders_[other].source == OrderSource::kNone || orders_[other].points < largest) continue;
+      largest = orders_[other].points;
+      found.emplace();
+      found->source = OrderSource::kBridge;
+      found->offset = orders_[other].offset + (link.from == region ? -link.step : link.step);
+      found->margin = std::min(orders_[other].margin, 2 * link.alike - 1);
+      found->warning =
+          "its whole stripe number rests on the shadow between it and the surface beside it; where that is no shadow "
+          "but "
+          "dark cloth or empty space, the number is wrong";
+    }
+    return found;
+  }
+
+  struct Bounds {
+    int least = std::numeric_limits<int>::min(), most = std::numeric_limits<int>::max();
+  };
+
   detail::OrderScene scene_;
   double distance_mm_;
   std::vector<int> sheets_;
-  int count_, asked_;
+  std::vector<detail::Link> links_;
+  int away_, count_, asked_;
   std::vector<RegionOrder> orders_;
   std::vector<bool> settled_;
+  std::vector<Bounds> bounds_;
   detail::CoarseDepth depth_;
   std::vector<std::vector<detail::RegionSample>> samples_;
 };
@@ -133,12 +192,24 @@ std::string_view ToString(OrderSource source) {
 }
 
 std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibration& calibration, double distance_mm,
-                                      const std::optional<TargetSighting>& target, const std::vector<int>& sheets) {
-  Resolver resolver(phase, calibration, distance_mm, sheets);
+                                      const std::optional<TargetSighting>& target) {
+  Resolver resolver(phase, calibration, distance_mm);
   resolver.Anchor(target);
   resolver.Continue();
-  resolver.DoubtShadows();
   return resolver.Take();
+}
+
+std::vector<RegionOrder> SettleOrder(PhaseResult& phase, const ImageRgb& picture, const Calibration& calibration,
+                                     double distance_mm, const std::optional<TargetSighting>& target) {
+  detail::Parting parting(phase, picture, Away(calibration));
+  parting.Part(phase);
+  Resolver resolver(phase, calibration, distance_mm, parting.sheets(), parting.links());
+  resolver.Anchor(target);
+  resolver.Squeeze();
+  resolver.Continue();
+  auto orders = resolver.Take();
+  parting.Join(phase, orders);
+  return orders;
 }
 
 std::vector<RegionOrder> SummarisedRegions(const std::vector<RegionOrder>& regions) {

@@ -45,23 +45,18 @@ struct RegionOrder {
 };
 
 /// One entry for each region, largest first. `distance_mm` is the expected distance (rig nominal or EXIF).
-/// Every region asks its own grating edge and the label that lies on it; then the parts of its own sheet; then the
-/// distance if that is unambiguous within the working range, or the nearest settled region (the offset that continues
-/// its depth). The last two are warned of. Where edge and label disagree the margin is 0, with a warning.
-/// `sheets`, from SplitDoubtfulRegions: regions with the same number were one sheet before they were parted along a
-/// doubtful joint. A part without an anchor follows the anchored ones of its sheet, with a warning.
+/// Every region asks its own grating edge and the label that lies on it; then the distance if that is unambiguous
+/// within the working range, or the nearest settled region (the offset that continues its depth). The last two are
+/// warned of. Where edge and label disagree the margin is 0, with a warning. Regions are taken as they are.
 std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibration& calibration, double distance_mm,
-                                      const std::optional<TargetSighting>& target = std::nullopt,
-                                      const std::vector<int>& sheets = {});
+                                      const std::optional<TargetSighting>& target = std::nullopt);
 
-/// Parts regions where the step to what lies behind may be near a whole number of stripes, so that no phase shows it.
-/// Such a joint shows otherwise: flash and camera look from nearly the same side, so a round body is dark along its
-/// outline, and its shadow lies beside it: the stripes' amplitude has a valley there. Regions are parted along valleys
-/// below 0.8 of both sides, and at necks narrower than about two and a half stripes; parts smaller than 0.4 % of all
-/// points stay with their neighbour. Pixels in the valley itself, where both surfaces mix, are taken out of the mask.
-/// Every part keeps its phase; regions are numbered by size again. Returns the sheet of each region: the region that it
-/// was part of before. Nothing is touched when there is nothing to part.
-std::vector<int> SplitDoubtfulRegions(PhaseResult& phase);
+/// The same for a photograph whose regions may have been unwrapped across a step of whole stripes, which no phase
+/// shows. Regions are parted where such a step may hide, put together again where the light shows that there is none
+/// (docs/stripe-order.md), and what remains doubtful is a region of its own with a warning. No point is dropped;
+/// `phase.unwrapped` has the new regions' numbers. `picture`: the photograph's colours, of the same size.
+std::vector<RegionOrder> SettleOrder(PhaseResult& phase, const ImageRgb& picture, const Calibration& calibration,
+                                     double distance_mm, const std::optional<TargetSighting>& target = std::nullopt);
 
 /// For reports: the regions with at least a thousandth of all points (and the largest); the others are added up, those
 /// without an order in one entry and those with one, which then carries the least margin among them, in another.

@@ -12,6 +12,7 @@
 
 #include "core/vector.h"
 #include "reconstruct/colour.h"
+#include "reconstruct/detail/extent.h"
 #include "reconstruct/detail/lateral.h"
 #include "reconstruct/detail/parallel.h"
 #include "reconstruct/detail/sensor_grid.h"
@@ -63,13 +64,18 @@ ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions
                                             : std::numeric_limits<float>::infinity();
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   ImageF order = std::move(phase.unwrapped.phase);
+  // Of no region at its place 0, of region r at r + 1.
+  std::vector<float> offsets(regions.size() + 1, kNone);
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    if (regions[r].source != OrderSource::kNone) offsets[r + 1] = static_cast<float>(regions[r].offset);
+  }
   detail::ParallelLines(order.height(), [&](int row) {
-    for (int col = 0; col < order.width(); ++col) {
-      const int region = phase.unwrapped.region(col, row);
-      const bool known = region >= 0 && regions[static_cast<std::size_t>(region)].source != OrderSource::kNone;
-      const float offset = known ? static_cast<float>(regions[static_cast<std::size_t>(region)].offset) : kNone;
-      const float n = order(col, row) / kTwoPi + offset;
-      order(col, row) = n >= lowest && n <= highest ? n : kNone;
+    float* at = order.Row(row);
+    const std::int32_t* region = phase.unwrapped.region.Row(row);
+    const detail::Extent extent = detail::ExtentOf(at, order.width());
+    for (int col = extent.first; col < extent.last; ++col) {
+      const float n = at[col] / kTwoPi + offsets[static_cast<std::size_t>(region[col] + 1)];
+      at[col] = n >= lowest && n <= highest ? n : kNone;
     }
   });
   return order;
@@ -147,7 +153,7 @@ ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibrati
     if (!out.target) out.warnings.emplace_back("the label is not found in the photograph");
   }
   const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
-  out.regions = ResolveOrder(phase, calibration, options.distance_mm.value_or(middle_mm), out.target);
+  out.regions = SettleOrder(phase, photograph.colour, calibration, options.distance_mm.value_or(middle_mm), out.target);
   return detail::SmoothAlongStripes(AbsoluteOrder(phase, out.regions, calibration), phase.direction,
                                     options.smoothing_along * phase.carrier_period_px);
 }

@@ -14,46 +14,6 @@ constexpr int kCell_px = 16;
 
 }  // namespace
 
-std::vector<int> ShadowedLines(const PhaseResult& phase, int regions) {
-  constexpr double kNarrowest = 0.9, kWidest = 8, kFlush = 0.4, kUnlit = 0.4;
-  const auto& region = phase.unwrapped.region;
-  const bool horizontal = phase.direction == StripeDirection::kHorizontal;
-  const double period = phase.carrier_period_px;
-  const int reach = std::max(2, static_cast<int>(period));
-  const int along = std::max(1, static_cast<int>(period / 3)), across = std::max(1, static_cast<int>(period / 6));
-  const int dx = horizontal ? 0 : 1, dy = 1 - dx;
-  const auto order = [&](int x, int y) { return phase.unwrapped.phase(x, y) / kTwoPi; };
-  const auto modulation = [&](int x, int y) { return phase.amplitude(x, y) / std::max(phase.background(x, y), 1e-6F); };
-  const auto is_shadow = [&](int ax, int ay, int bx, int by) {
-    const int gap = bx - ax + by - ay, fx = ax - reach * dx, fy = ay - reach * dy, gx = bx + reach * dx,
-              gy = by + reach * dy;
-    if (gap < kNarrowest * period || gap > kWidest * period || !region.Contains(fx, fy) || !region.Contains(gx, gy))
-      return false;
-    const int r = region(ax, ay);
-    if (region(fx, fy) != r || region(gx, gy) != r) return false;
-    const double slope = (order(ax, ay) - order(fx, fy) + order(gx, gy) - order(bx, by)) / (2 * reach);
-    const int mx = (ax + bx) / 2, my = (ay + by) / 2;
-    return std::abs(order(bx, by) - order(ax, ay) - gap * slope) < kFlush &&
-           modulation(mx, my) < kUnlit * std::min(modulation(fx, fy), modulation(gx, gy));
-  };
-  // In the order of memory, whichever way the lines run.
-  const int col_step = horizontal ? along : across, row_step = horizontal ? across : along;
-  std::vector<int> last(static_cast<std::size_t>(horizontal ? region.width() : region.height()), -1);
-  std::vector<int> lines(static_cast<std::size_t>(regions), 0);
-  for (int row = 0; row < region.height(); row += row_step) {
-    for (int col = 0; col < region.width(); col += col_step) {
-      const int r = region(col, row);
-      if (r < 0 || r >= regions) continue;
-      int& before = last[static_cast<std::size_t>(horizontal ? col : row)];
-      const int at = horizontal ? row : col, ax = horizontal ? col : before, ay = horizontal ? before : row;
-      if (before >= 0 && at - before > kNarrowest * period && region(ax, ay) == r && is_shadow(ax, ay, col, row))
-        ++lines[static_cast<std::size_t>(r)];
-      before = at;
-    }
-  }
-  return lines;
-}
-
 CoarseDepth::CoarseDepth(const OrderScene& scene)
     : scene_(scene),
       depth_(scene.phase.mask.width() / kCell_px + 1, scene.phase.mask.height() / kCell_px + 1, 0.0F),

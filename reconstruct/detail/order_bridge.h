@@ -8,11 +8,6 @@
 
 namespace striae::reconstruct::detail {
 
-/// On how many lines, a third of a stripe apart, each of the first `regions` regions has a shadow that its own order
-/// does not know of: no light for about a stripe or more, and on both sides one surface. What casts it may stand before
-/// the rest, whole stripes nearer. Dark paint is not meant: it keeps the modulation.
-std::vector<int> ShadowedLines(const PhaseResult& phase, int regions);
-
 /// Depth of the regions whose order is settled, on a coarse grid of the sensor.
 class CoarseDepth {
  public:

@@ -14,6 +14,7 @@ namespace striae::reconstruct::detail {
 
 constexpr float kValley = 0.87F;  ///< of the amplitude on either side
 constexpr float kSureNoises = 4;  ///< and by so many noises below it
+constexpr float kSeenNoises = 1;  ///< where noise is larger no bend can be seen, and none is ruled out
 constexpr float kBend = 0.09F;    ///< stripes: second difference over a stripe across, two thirds along
 
 /// The picture in cells of a sixth of a stripe across and a third along the stripes.
@@ -121,6 +122,9 @@ inline void TakeOutBends(const Grid& grid, int lag_x, int lag_y, Mask& sound) {
     const auto judge = [&](int x, float bend) {
       if (bend > kBend && bend * a[x] > kSureNoises * kSecondDifference * grid.order_noise) to[x] = 0;
     };
+    for (int x = 0; x < grid.width; ++x) {
+      if (kBend * a[x] < kSeenNoises * kSecondDifference * grid.order_noise) to[x] = 0;
+    }
     for (int x = lag_x; x + lag_x < grid.width; ++x) {
       if (r[x] >= 0 && r[x - lag_x] == r[x] && r[x + lag_x] == r[x])
         judge(x, std::abs(at[x - lag_x] - 2 * at[x] + at[x + lag_x]));

@@ -10,7 +10,8 @@
 namespace striae::reconstruct::detail {
 
 /// The middle of the values (the upper one of two), which are put into another order. Not of none.
-inline double MedianOf(std::vector<double>& values) {
+template <typename T>
+T MedianOf(std::vector<T>& values) {
   const auto middle = values.begin() + static_cast<long>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

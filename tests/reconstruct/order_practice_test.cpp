@@ -64,8 +64,7 @@ void Judge(const fs::path& image, const Calibration& rig) {
   options.direction = rig.direction;
   auto phase = MeasurePhase(*photograph, options);
   ASSERT_TRUE(phase) << image;
-  const auto sheets = SplitDoubtfulRegions(*phase);
-  const auto orders = ResolveOrder(*phase, rig, (rig.near_mm + rig.far_mm) / 2, std::nullopt, sheets);
+  const auto orders = SettleOrder(*phase, photograph->colour, rig, (rig.near_mm + rig.far_mm) / 2);
   const auto offsets = TrueOffsets(*phase, rig, ReadDepthMap(fs::path(image).replace_extension(".depth8.tiff")));
   constexpr std::size_t kFewest = 30;  // samples of the truth, one for 64 pixels
   for (std::size_t r = 0; r < orders.size(); ++r) {

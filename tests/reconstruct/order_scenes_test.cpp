@@ -88,15 +88,15 @@ void RunScene(const std::string& kind, std::uint32_t seed, double sensor, bool p
   const OrderScene scene = MakeOrderScene(kind, seed, sensor);
   PhaseOptions options;
   options.direction = scene.scene.rig.direction;
-  auto phase = MeasurePhase(PhotographOf(scene.scene), options);
+  const Photograph photograph = PhotographOf(scene.scene);
+  auto phase = MeasurePhase(photograph, options);
   ++tally.scenes;
   if (!phase) {
     std::cout << kind << " " << seed << ": " << phase.error().message << "\n";
     return;
   }
-  const auto sheets = SplitDoubtfulRegions(*phase);
-  const auto judged =
-      Judge(scene, *phase, ResolveOrder(*phase, scene.scene.rig, scene.distance_mm, std::nullopt, sheets));
+  const auto orders = SettleOrder(*phase, photograph.colour, scene.scene.rig, scene.distance_mm);
+  const auto judged = Judge(scene, *phase, orders);
   std::size_t all = 0;
   double wrong_points = 0;
   for (const Judged& j : judged) {

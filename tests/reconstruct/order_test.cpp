@@ -58,53 +58,73 @@ TEST(ResolveOrder, WithoutStripeCountTheDistanceDecidesAndSaysHowSure) {
   EXPECT_LT(orders.front().margin, 1);
 }
 
-TEST(SplitDoubtfulRegions, LeavesALimbWhole) {
+TEST(SettleOrder, LeavesALimbWhole) {
   const FringeScene scene{SmallQuarterRig(), UprightLimb(1000, 60)};
   PhaseResult phase = PhaseOf(scene);
   const auto before = phase.unwrapped.region.pixels();
-  const auto sheets = SplitDoubtfulRegions(phase);
-  EXPECT_EQ(static_cast<int>(sheets.size()), phase.unwrapped.regions);
+  const auto orders = SettleOrder(phase, Render(scene).colour, scene.rig, 1000);
   EXPECT_TRUE(std::equal(before.begin(), before.end(), phase.unwrapped.region.pixels().begin()));
+  EXPECT_EQ(static_cast<int>(orders.size()), phase.unwrapped.regions);
+  EXPECT_EQ(orders.front().source, OrderSource::kGratingEdge);
+  EXPECT_EQ(orders.front().warning, "");
 }
 
-/// Two parts of one sheet: the stripes of a wide plane, dimmed along a band as along an arm's outline.
-PhaseResult Dimmed(double amplitude_left, int from_col) {
-  PhaseResult phase = PhaseOf({SmallQuarterRig(), Plane(1000, 0, 0, 400, 300)});
-  const int period = static_cast<int>(phase.carrier_period_px), middle = phase.mask.height() / 2;
-  for (int row = middle - period / 3; row <= middle + period / 3; ++row) {
-    for (int col = from_col; col < phase.mask.width(); ++col)
-      phase.amplitude(col, row) *= static_cast<float>(amplitude_left);
+/// A wide plane whose stripes are dimmed along a band from column `from_col` on, as along an arm's outline: in the
+/// amplitude, and (`dark`) in the picture too, as in the shadow below the arm.
+struct Dimmed {
+  FringeScene scene{SmallQuarterRig(), Plane(1000, 0, 0, 400, 300)};
+  PhaseResult phase = PhaseOf(scene);
+  ImageRgb picture = Render(scene).colour;
+
+  Dimmed(double amplitude_left, int from_col, bool dark) {
+    const int period = static_cast<int>(phase.carrier_period_px), middle = phase.mask.height() / 2;
+    const int half = dark ? (4 * period) / 5 : period / 3;
+    for (int row = middle - half; row <= middle + half; ++row) {
+      for (int col = from_col; col < phase.mask.width(); ++col) {
+        phase.amplitude(col, row) *= static_cast<float>(amplitude_left);
+        if (dark) picture(col, row) = {30, 30, 30};
+      }
+    }
   }
-  return phase;
-}
+  /// Regions with a warning, without one, and points of both.
+  void Settle() { orders = SettleOrder(phase, picture, scene.rig, 1000); }
+  [[nodiscard]] std::size_t Points() const {
+    std::size_t points = 0;
+    for (const RegionOrder& order : orders) points += order.points;
+    return points;
+  }
+  std::vector<RegionOrder> orders;
+};
 
-TEST(SplitDoubtfulRegions, PartsARegionAlongALineOfDimmedStripes) {
-  PhaseResult phase = Dimmed(0.6, 0);
-  ASSERT_EQ(phase.unwrapped.regions, 1);
-  const ImageF order = phase.unwrapped.phase;
-  const auto sheets = SplitDoubtfulRegions(phase);
-  ASSERT_EQ(sheets, (std::vector<int>{0, 0}));
-  ASSERT_EQ(phase.unwrapped.pixels.size(), 2U);
-  EXPECT_GE(phase.unwrapped.pixels[0], phase.unwrapped.pixels[1]);
-  const int col = phase.mask.width() / 2, quarter = phase.mask.height() / 4;
-  EXPECT_NE(phase.unwrapped.region(col, quarter), phase.unwrapped.region(col, 3 * quarter));
-  EXPECT_EQ(phase.unwrapped.phase(col, quarter), order(col, quarter));
-  std::vector<std::size_t> counted(2, 0);
-  for (const int region : phase.unwrapped.region.pixels()) {
+TEST(SettleOrder, PartsARegionAlongAShadowThatThePhaseDoesNotKnowOf) {
+  Dimmed dimmed(0.3, 0, true);
+  ASSERT_EQ(dimmed.phase.unwrapped.regions, 1);
+  const ImageF order = dimmed.phase.unwrapped.phase;
+  const std::size_t points = dimmed.phase.unwrapped.pixels[0];
+  dimmed.Settle();
+  ASSERT_GE(dimmed.orders.size(), 2U);
+  EXPECT_EQ(dimmed.Points(), points);  // nothing is taken out
+  const int col = dimmed.phase.mask.width() / 2, quarter = dimmed.phase.mask.height() / 4;
+  EXPECT_NE(dimmed.phase.unwrapped.region(col, quarter), dimmed.phase.unwrapped.region(col, 3 * quarter));
+  EXPECT_EQ(dimmed.phase.unwrapped.phase(col, quarter), order(col, quarter));
+  std::vector<std::size_t> counted(dimmed.orders.size(), 0);
+  for (const int region : dimmed.phase.unwrapped.region.pixels()) {
     if (region >= 0) ++counted.at(static_cast<std::size_t>(region));
   }
-  EXPECT_EQ(counted, phase.unwrapped.pixels);
+  EXPECT_EQ(counted, dimmed.phase.unwrapped.pixels);
+  for (const RegionOrder& region : dimmed.orders) EXPECT_NE(region.warning, "");
 }
 
-TEST(SplitDoubtfulRegions, LeavesARegionWholeThatIsJoinedBesideTheDimmedLine) {
-  PhaseResult phase = Dimmed(0.6, 0);
-  PhaseResult open = Dimmed(0.6, phase.mask.width() / 3);
-  EXPECT_EQ(SplitDoubtfulRegions(open).size(), 1U);
+TEST(SettleOrder, LeavesARegionWholeThatIsJoinedBesideTheDimmedLine) {
+  Dimmed dimmed(0.6, SmallQuarterRig().image_width_px / 3, false);
+  dimmed.Settle();
+  EXPECT_EQ(dimmed.orders.size(), 1U);
 }
 
-TEST(SplitDoubtfulRegions, DoesNotTakeAFaintLineForAJoint) {
-  PhaseResult phase = Dimmed(0.95, 0);
-  EXPECT_EQ(SplitDoubtfulRegions(phase).size(), 1U);
+TEST(SettleOrder, DoesNotTakeAFaintLineForAJoint) {
+  Dimmed dimmed(0.95, 0, false);
+  dimmed.Settle();
+  EXPECT_EQ(dimmed.orders.size(), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,288 @@
+#include "reconstruct/detail/order_parting.h"
+
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+#include "reconstruct/detail/order_labels.h"
+
+namespace striae::reconstruct::detail {
+namespace {
+
+constexpr double kNeck = 1.6;          ///< stripes from either side of a neck
+constexpr int kFarthest = 24;          ///< cells from a seed: four stripes across, eight along
+constexpr double kLeastShare = 0.004;  ///< of all points: smaller parts are not split off
+
+/// Which nodes are reached from each one.
+std::vector<std::vector<bool>> Reach(std::size_t count, const std::vector<std::vector<std::size_t>>& next) {
+  std::vector<std::vector<bool>> reached(count);
+  for (std::size_t from = 0; from < count; ++from) {
+    reached[from].assign(count, false);
+    std::vector<std::size_t> open{from};
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      for (const std::size_t to : next[at]) {
+        if (reached[from][to]) continue;
+        reached[from][to] = true;
+        open.push_back(to);
+      }
+    }
+  }
+  return reached;
+}
+
+}  // namespace
+
+Parting::Parting(const PhaseResult& phase, const ImageRgb& picture, int away)
+    : grid_(phase),
+      sound_(1, 1, 0),
+      regions_(phase.unwrapped.regions),
+      away_(away),
+      horizontal_(phase.direction == StripeDirection::kHorizontal) {
+  if (grid_.width < 3 || grid_.height < 3) return;
+  const double period = phase.carrier_period_px;
+  sound_ = SoundCells(grid_, grid_.Cells(horizontal_ ? 1.0 : 1.5, period, grid_.cell_x),
+                      grid_.Cells(horizontal_ ? 1.5 : 1.0, period, grid_.cell_y));
+  TakeOutBends(grid_, grid_.Cells(horizontal_ ? 0.66 : 1.0, period, grid_.cell_x),
+               grid_.Cells(horizontal_ ? 1.0 : 0.66, period, grid_.cell_y), sound_);
+  const Mask eroded =
+      Eroded(grid_, sound_, grid_.Cells(kNeck, period, grid_.cell_x), grid_.Cells(kNeck, period, grid_.cell_y));
+  Parts parts(grid_, sound_, eroded);
+  parts.Grow(grid_.width + grid_.height);
+  const auto points =
+      std::count_if(grid_.region.pixels().begin(), grid_.region.pixels().end(), [](std::int32_t r) { return r >= 0; });
+  parts.KeepLarge(eroded, kLeastShare * static_cast<double>(points));
+  parts.Grow(kFarthest);
+  parts.FillRest();
+  lighting_ = ReadLighting(grid_, sound_, parts, phase, picture, away);
+  label_ = std::move(parts.part);
+  sheet_ = std::move(parts.parent);
+  MergeProven();
+}
+
+/// Where each of two parts is shown not to be farther than the other, no step parts them.
+void Parting::MergeProven() {
+  // Labels in use, from 0 on; then regions that the grid has no cell of.
+  std::vector<std::int32_t> used(sheet_.size(), kNone), sheet;
+  std::vector<bool> seen(static_cast<std::size_t>(regions_), false);
+  for (const std::int32_t label : label_.pixels()) {
+    if (label < 0 || used[static_cast<std::size_t>(label)] != kNone) continue;
+    used[static_cast<std::size_t>(label)] = static_cast<std::int32_t>(sheet.size());
+    sheet.push_back(sheet_[static_cast<std::size_t>(label)]);
+    seen[static_cast<std::size_t>(sheet.back())] = true;
+  }
+  for (std::size_t r = 0; r < seen.size(); ++r) {
+    if (!seen[r]) sheet.push_back(static_cast<std::int32_t>(r));
+  }
+  const auto is_one_sheet = [&](const Link& link) {
+    return sheet_[static_cast<std::size_t>(link.from)] == sheet_[static_cast<std::size_t>(link.to)];
+  };
+  // Only what is linked within its sheet can be merged.
+  std::map<std::int32_t, std::size_t> node;
+  for (const Link& link : lighting_.links) {
+    if (!is_one_sheet(link)) continue;
+    node.emplace(link.from, node.size());
+    node.emplace(link.to, node.size());
+  }
+  std::vector<std::vector<std::size_t>> next(node.size());
+  for (const Link& link : lighting_.links) {
+    if (!is_one_sheet(link)) continue;
+    const std::size_t a = node[link.from], b = node[link.to];
+    if (link.lit || (link.shadow && link.step == 0)) next[a].push_back(b);
+    if (link.shadow && link.step == 0) next[b].push_back(a);
+  }
+  const auto reached = Reach(node.size(), next);
+  std::vector<std::int32_t> to(sheet.size());
+  std::iota(to.begin(), to.end(), 0);
+  for (const auto& [a, i] : node) {
+    for (const auto& [b, j] : node) {
+      if (!reached[i][j] || !reached[j][i]) continue;
+      std::int32_t &own = to[static_cast<std::size_t>(used[static_cast<std::size_t>(a)])],
+                   &other = to[static_cast<std::size_t>(used[static_cast<std::size_t>(b)])];
+      own = other = std::min(own, other);
+    }
+  }
+  // Numbers without holes.
+  std::vector<std::int32_t> number(sheet.size(), kNone);
+  sheet_.clear();
+  for (std::size_t i = 0; i < sheet.size(); ++i) {
+    auto& own = number[static_cast<std::size_t>(to[i])];
+    if (own == kNone) {
+      own = static_cast<std::int32_t>(sheet_.size());
+      sheet_.push_back(sheet[i]);
+    }
+  }
+  const auto renumber = [&](std::int32_t label) {
+    return number[static_cast<std::size_t>(to[static_cast<std::size_t>(used[static_cast<std::size_t>(label)])])];
+  };
+  for (std::int32_t& label : label_.pixels()) {
+    if (label >= 0) label = renumber(label);
+  }
+  for (Link& link : lighting_.links) {
+    link.from = renumber(link.from);
+    link.to = renumber(link.to);
+  }
+  std::erase_if(lighting_.links, [](const Link& link) { return link.from == link.to; });
+  for (Gap& gap : lighting_.gaps) {
+    gap.from = renumber(gap.from);
+    gap.to = renumber(gap.to);
+  }
+}
+
+void Parting::Part(PhaseResult& phase) {
+  sheets_.resize(static_cast<std::size_t>(regions_));
+  std::iota(sheets_.begin(), sheets_.end(), 0);
+  std::vector<std::int32_t> whole(sheets_.begin(), sheets_.end());
+  std::vector<int> region(sheet_.size());
+  if (static_cast<int>(sheet_.size()) > regions_) {
+    region = ApplyLabels(grid_, label_, sheet_, whole, phase);
+    sheets_.assign(sheet_.size(), 0);
+    for (std::size_t i = 0; i < sheet_.size(); ++i) sheets_[static_cast<std::size_t>(region[i])] = sheet_[i];
+    sheets_.resize(static_cast<std::size_t>(phase.unwrapped.regions));
+  } else {
+    for (std::size_t i = 0; i < sheet_.size(); ++i) region[i] = sheet_[i];
+  }
+  // From here on a cell's label is its region.
+  const auto of = [&](int label) { return region[static_cast<std::size_t>(label)]; };
+  for (std::int32_t& label : label_.pixels()) {
+    if (label >= 0) label = of(label);
+  }
+  sheet_.assign(sheets_.begin(), sheets_.end());
+  links_ = lighting_.links;
+  for (Link& link : links_) link.from = of(link.from), link.to = of(link.to);
+  for (Gap& gap : lighting_.gaps) gap.from = of(gap.from), gap.to = of(gap.to);
+}
+
+void Parting::Join(PhaseResult& phase, std::vector<RegionOrder>& orders) {
+  if (sheet_.empty()) return;
+  // One label for what is of one sheet, has one number and is equally warned of.
+  std::map<std::tuple<std::int32_t, bool, bool, int>, std::int32_t> group;
+  std::vector<std::int32_t> label_of_region(orders.size()), sheet_of_label;
+  std::vector<RegionOrder> joined;
+  std::vector<bool> warned;
+  for (std::size_t r = 0; r < orders.size(); ++r) {
+    const bool is_warned = !orders[r].warning.empty(), none = orders[r].source == OrderSource::kNone;
+    const auto [found, is_new] = group.emplace(std::tuple(sheet_[r], is_warned, none, none ? 0 : orders[r].offset),
+                                               static_cast<std::int32_t>(joined.size()));
+    label_of_region[r] = found->second;
+    if (is_new) {
+      joined.push_back(orders[r]);
+      sheet_of_label.push_back(sheet_[r]);
+      warned.push_back(is_warned);
+      continue;
+    }
+    RegionOrder& sum = joined[static_cast<std::size_t>(found->second)];
+    sum.margin = std::min(sum.margin, orders[r].margin);
+  }
+  const std::size_t whole = joined.size();
+  for (std::int32_t& label : label_.pixels()) {
+    if (label >= 0) label = label_of_region[static_cast<std::size_t>(label)];
+  }
+  for (Gap& gap : lighting_.gaps) {
+    gap.from = label_of_region[static_cast<std::size_t>(gap.from)];
+    gap.to = label_of_region[static_cast<std::size_t>(gap.to)];
+  }
+  GiveSeams(warned, sheet_of_label, joined);
+  const bool shadowed = DoubtShadows(sheet_of_label, joined);
+  if (whole == orders.size() && joined.size() == whole && !shadowed && whole == static_cast<std::size_t>(regions_))
+    return;
+  const std::vector<std::int32_t> sheet_of_region = sheet_;
+  const auto region = ApplyLabels(grid_, label_, sheet_of_label, sheet_of_region, phase);
+  orders.assign(static_cast<std::size_t>(phase.unwrapped.regions), {});
+  for (std::size_t i = 0; i < joined.size(); ++i) {
+    const auto r = static_cast<std::size_t>(region[i]);
+    if (r >= orders.size()) continue;
+    joined[i].points = phase.unwrapped.pixels[r];
+    orders[r] = std::move(joined[i]);
+  }
+}
+
+/// The window mixes both surfaces where they meet, and no cell knows to which one it belongs.
+void Parting::GiveSeams(const std::vector<bool>& warned, std::vector<std::int32_t>& sheet_of_label,
+                        std::vector<RegionOrder>& orders) {
+  constexpr int kReach = 6;  // cells: a stripe across, two along
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> seam_of;
+  const auto taker = [&](std::int32_t own, std::int32_t other) {
+    const auto o = static_cast<std::size_t>(other);
+    if (o >= warned.size() || warned[o]) return other;
+    const auto [found, is_new] = seam_of.emplace(std::minmax(own, other), static_cast<std::int32_t>(orders.size()));
+    if (is_new) {
+      RegionOrder seam = orders[static_cast<std::size_t>(own)];
+      seam.source = OrderSource::kBridge;
+      seam.margin = 0;
+      seam.warning = "two surfaces whole stripes apart meet here, and the light of both is mixed";
+      orders.push_back(std::move(seam));
+      sheet_of_label.push_back(sheet_of_label[static_cast<std::size_t>(own)]);
+    }
+    return found->second;
+  };
+  std::vector<std::tuple<int, int, std::int32_t>> now, next;
+  const auto silent = [&](std::int32_t label) {
+    return label >= 0 && static_cast<std::size_t>(label) < warned.size() && !warned[static_cast<std::size_t>(label)];
+  };
+  for (int step = 0; step < kReach; ++step) {
+    next.clear();
+    const auto take = [&](int x, int y) {
+      const std::int32_t own = label_(x, y);
+      if (!silent(own) || (step > 0 && sound_(x, y) != 0)) return;
+      ForNeighbours(grid_, {x, y}, [&](int nx, int ny) {
+        const std::int32_t other = label_(nx, ny);
+        if (other < 0 || other == own) return;
+        if (sheet_of_label[static_cast<std::size_t>(other)] != sheet_of_label[static_cast<std::size_t>(own)]) return;
+        if (orders[static_cast<std::size_t>(other)].source == OrderSource::kNone) return;
+        next.emplace_back(x, y, taker(own, other));
+      });
+    };
+    if (step == 0) {
+      for (int y = 0; y < grid_.height; ++y) {
+        for (int x = 0; x < grid_.width; ++x) take(x, y);
+      }
+    } else {
+      for (const auto& [x, y, label] : now) ForNeighbours(grid_, {x, y}, take);
+    }
+    for (const auto& [x, y, label] : next) label_(x, y) = label;
+    now.swap(next);
+  }
+}
+
+bool Parting::DoubtShadows(std::vector<std::int32_t>& sheet_of_label, std::vector<RegionOrder>& orders) {
+  constexpr int kFewestLines = 8, kMargin = 2;
+  std::map<std::int32_t, std::set<int>> lines;
+  std::map<std::int32_t, std::vector<const Gap*>> gaps;
+  for (const Gap& gap : lighting_.gaps) {
+    const auto from = static_cast<std::size_t>(gap.from), to = static_cast<std::size_t>(gap.to);
+    if (!orders[from].warning.empty() || sheet_of_label[from] != sheet_of_label[to]) continue;
+    if (orders[to].offset - orders[from].offset == gap.step || gap.step == 0) continue;
+    lines[gap.from].insert(gap.line);
+    gaps[gap.from].push_back(&gap);
+  }
+  bool found = false;
+  const int last_line = (horizontal_ ? grid_.width : grid_.height) - 1,
+            length = horizontal_ ? grid_.height : grid_.width;
+  for (const auto& [label, on] : lines) {
+    if (static_cast<int>(on.size()) < kFewestLines) continue;
+    found = true;
+    RegionOrder doubted = orders[static_cast<std::size_t>(label)];
+    doubted.source = OrderSource::kBridge;
+    doubted.margin = std::min(doubted.margin, 0.5);
+    doubted.warning =
+        "a shadow falls beyond it that only a step by whole stripes would cast: it may stand nearer by that; look for "
+        "steps in depth that should not be there";
+    const auto own = static_cast<std::int32_t>(orders.size());
+    orders.push_back(std::move(doubted));
+    sheet_of_label.push_back(sheet_of_label[static_cast<std::size_t>(label)]);
+    for (const Gap* gap : gaps[label]) {
+      for (int line = std::max(0, gap->line - kMargin); line <= std::min(last_line, gap->line + kMargin); ++line) {
+        for (int at = gap->last; at >= 0 && at < length; at -= away_) {
+          std::int32_t& cell = horizontal_ ? label_(line, at) : label_(at, line);
+          if (cell == label) cell = own;
+        }
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace striae::reconstruct::detail

@@ -1,0 +1,131 @@
+// Parts of regions: connected ground where the order cannot have slipped by a whole stripe unseen.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "reconstruct/detail/order_cells.h"
+
+namespace striae::reconstruct::detail {
+
+constexpr std::int32_t kNone = -1;
+
+using Cell = std::pair<int, int>;
+
+/// Calls visit(col, row) for the four neighbours within the grid.
+template <typename Visit>
+void ForNeighbours(const Grid& grid, const Cell& at, const Visit& visit) {
+  const auto [x, y] = at;
+  if (x > 0) visit(x - 1, y);
+  if (x + 1 < grid.width) visit(x + 1, y);
+  if (y > 0) visit(x, y - 1);
+  if (y + 1 < grid.height) visit(x, y + 1);
+}
+
+/// Connected parts of the eroded cells, and what they are grown to within their regions.
+class Parts {
+ public:
+  Parts(const Grid& grid, const Mask& sound, const Mask& eroded) : grid_(grid), sound_(sound) {
+    part = Image<std::int32_t>(grid.width, grid.height, kNone);
+    for (int row = 0; row < grid.height; ++row) {
+      for (int col = 0; col < grid.width; ++col) {
+        if (eroded(col, row) != 0 && part(col, row) == kNone) Flood(eroded, {col, row});
+      }
+    }
+  }
+
+  /// Over the sound cells first, so that parts meet in the valleys between them; then over all of the region. No
+  /// farther than `steps` cells each: what is so far from any seed hangs on it by less than a neck.
+  void Grow(int steps) {
+    std::vector<Cell> now, next;
+    for (const bool valleys : {false, true}) {
+      now.clear();
+      for (int row = 0; row < grid_.height; ++row) {
+        for (int col = 0; col < grid_.width; ++col) {
+          if (part(col, row) != kNone && OnRim({col, row})) now.emplace_back(col, row);
+        }
+      }
+      for (int step = 0; step < steps && !now.empty(); ++step) {
+        next.clear();
+        for (const Cell& cell : now) {
+          const std::int32_t own = part(cell.first, cell.second);
+          ForNeighbours(grid_, cell, [&](int x, int y) {
+            if (part(x, y) != kNone || grid_.region(x, y) != parent[static_cast<std::size_t>(own)]) return;
+            if (!valleys && sound_(x, y) == 0) return;
+            part(x, y) = own;
+            next.emplace_back(x, y);
+          });
+        }
+        now.swap(next);
+      }
+    }
+  }
+
+  /// Leaves only the seeds of parts that are grown to at least `least` cells.
+  void KeepLarge(const Mask& eroded, double least) {
+    std::vector<std::size_t> cells(parent.size(), 0);
+    for (const std::int32_t p : part.pixels()) {
+      if (p >= 0) ++cells[static_cast<std::size_t>(p)];
+    }
+    std::vector<bool> keep(parent.size());
+    for (std::size_t p = 0; p < parent.size(); ++p) keep[p] = static_cast<double>(cells[p]) >= least;
+    for (int row = 0; row < grid_.height; ++row) {
+      for (int col = 0; col < grid_.width; ++col) {
+        std::int32_t& p = part(col, row);
+        if (p == kNone) continue;
+        if (eroded(col, row) == 0 || !keep[static_cast<std::size_t>(p)]) p = kNone;
+      }
+    }
+  }
+
+  /// Cells that belong to no part become one of their region.
+  void FillRest() {
+    std::vector<std::int32_t> whole;
+    for (int row = 0; row < grid_.height; ++row) {
+      for (int col = 0; col < grid_.width; ++col) {
+        const std::int32_t region = grid_.region(col, row);
+        if (region < 0 || part(col, row) != kNone) continue;
+        const auto r = static_cast<std::size_t>(region);
+        if (whole.size() <= r) whole.resize(r + 1, kNone);
+        if (whole[r] == kNone) {
+          whole[r] = static_cast<std::int32_t>(parent.size());
+          parent.push_back(region);
+        }
+        part(col, row) = whole[r];
+      }
+    }
+  }
+
+  Image<std::int32_t> part;
+  std::vector<std::int32_t> parent;  ///< region of each part
+
+ private:
+  void Flood(const Mask& eroded, const Cell& first) {
+    const auto id = static_cast<std::int32_t>(parent.size());
+    const std::int32_t region = grid_.region(first.first, first.second);
+    parent.push_back(region);
+    std::vector<Cell> open{first};
+    part(first.first, first.second) = id;
+    while (!open.empty()) {
+      const Cell cell = open.back();
+      open.pop_back();
+      ForNeighbours(grid_, cell, [&](int x, int y) {
+        if (eroded(x, y) == 0 || part(x, y) != kNone || grid_.region(x, y) != region) return;
+        part(x, y) = id;
+        open.emplace_back(x, y);
+      });
+    }
+  }
+  [[nodiscard]] bool OnRim(const Cell& cell) const {
+    bool rim = false;
+    ForNeighbours(grid_, cell, [&](int x, int y) { rim = rim || part(x, y) == kNone; });
+    return rim;
+  }
+
+  const Grid& grid_;
+  const Mask& sound_;
+};
+
+}  // namespace striae::reconstruct::detail
