@@ -128,8 +128,14 @@ ImageF SmoothAlongStripes(ImageF order, StripeDirection direction, double sigma_
       const Extent extent = ExtentOf(order.Row(row), width);
       const int from = std::max(extent.first, neighbours.first()), to = std::min(extent.last, neighbours.last());
       if (from >= to) continue;
-      std::copy_n(order.Row(row), count, own.data());
-      for (int x = from; x < to; ++x) largest[static_cast<std::size_t>(x)] = limits(x / kCell, row / kCell);
+      std::copy(order.Row(row) + extent.first - std::min(extent.first, reach),
+                order.Row(row) + std::min(width, extent.last + reach),
+                own.data() + extent.first - std::min(extent.first, reach));
+      for (int x = from; x < to;) {  // cell by cell
+        const int end = std::min(to, (x / kCell + 1) * kCell);
+        std::fill(largest.begin() + x, largest.begin() + end, limits(x / kCell, row / kCell));
+        x = end;
+      }
       for (int k = 1; k <= reach; ++k) {
         before[static_cast<std::size_t>(k)] = neighbours.At(own.data(), row, -k);
         after[static_cast<std::size_t>(k)] = neighbours.At(own.data(), row, k);
