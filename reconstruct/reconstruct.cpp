@@ -153,7 +153,7 @@ ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibrati
     if (!out.target) out.warnings.emplace_back("the label is not found in the photograph");
   }
   const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
-  out.regions = ResolveOrder(phase, calibration, options.distance_mm.value_or(middle_mm), out.target);
+  out.regions = SettleOrder(phase, photograph.colour, calibration, options.distance_mm.value_or(middle_mm), out.target);
   return detail::SmoothAlongStripes(AbsoluteOrder(phase, out.regions, calibration), phase.direction,
                                     options.smoothing_along * phase.carrier_period_px);
 }
