@@ -1,5 +1,11 @@
 // Backup, restore, merge and identities with the program, and a name that stands nowhere else.
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include "tests/app/import_study.h"
 
@@ -98,6 +104,28 @@ std::vector<std::string> FilesWith(const fs::path& folder, const std::vector<std
   return found;
 }
 
+/// Takes connections and never answers.
+class SilentPacs {
+ public:
+  SilentPacs() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in any{};
+    any.sin_family = AF_INET;
+    any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof any;
+    EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&any), size), 0);
+    EXPECT_EQ(::listen(socket_, 4), 0);
+    EXPECT_EQ(::getsockname(socket_, reinterpret_cast<sockaddr*>(&any), &size), 0);
+    port_ = ntohs(any.sin_port);
+  }
+  ~SilentPacs() { ::close(socket_); }
+  SilentPacs(const SilentPacs&) = delete;
+  SilentPacs& operator=(const SilentPacs&) = delete;
+  [[nodiscard]] int port() const { return port_; }
+
+ private:
+  int socket_, port_ = 0;
+};
+
 TEST_F(Copies, ASeededNameStandsInNoOtherFile) {
   const std::vector<std::string> seeds = {"Seededname", "H-77-SEEDED", "1950-01-31", "19500131"};
   SetIdentity("S001", "Seededname^Invented");
@@ -114,6 +142,19 @@ TEST_F(Copies, ASeededNameStandsInNoOtherFile) {
             0);
   run({"process"});
   EXPECT_EQ(run({"dicom", "export", "--session", session_, "--out", Path("dicom")}), 0) << said;
+  // Objects are built when they are sent: what a PACS that is away or a kill in the middle leaves has no name either.
+  fs::create_directories(Path("tmp"));
+  ::setenv("TMPDIR", Path("tmp").c_str(), 1);
+  const SilentPacs pacs;
+  const std::vector<std::string> send = {"dicom", "send", "--session", session_, "--host", "127.0.0.1", "--port"};
+  auto away = send, stalled = send;
+  away.push_back("1");
+  EXPECT_EQ(run(away), 1);
+  stalled.push_back(std::to_string(pacs.port()));
+  stalled.insert(stalled.begin(), {"-s", "KILL", "4", std::string(STRIAE_BINARY_DIR) + "/striae", "-C", study_});
+  EXPECT_EQ(testing::RunProgram("timeout", stalled).exit_code, 128 + SIGKILL);
+  EXPECT_FALSE(fs::is_empty(Path("tmp"))) << "the kill came while the objects were there";
+  ::unsetenv("TMPDIR");
   EXPECT_EQ(run({"identity", "set", "S001", "--from", Write("gone/../person.json", R"({"name": "x"})"),
                  "--passphrase-file", Path("wrong.txt")}),
             1);
