@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/io/files.h"
+#include "app/staging.h"
 #include "core/ply.h"
 #include "dicom/measurement_report.h"
 #include "dicom/photo.h"
@@ -217,48 +218,6 @@ class Exporter {
   SessionExport export_;
 };
 
-/// A folder for the files until all are there; what is left of it goes when the export ends, however it ends.
-class Staging {
- public:
-  static Result<std::unique_ptr<Staging>> In(const std::filesystem::path& folder) {
-    std::error_code error;
-    const bool existed = std::filesystem::exists(folder, error);
-    auto staging = std::make_unique<Staging>(folder, !existed);
-    std::filesystem::create_directories(staging->path(), error);
-    if (error) {
-      return Fail(ErrorCode::kIo, "cannot write into " + folder.string() + " (" + error.message() +
-                                      "); choose a folder that you may write to");
-    }
-    return staging;
-  }
-  Staging(std::filesystem::path folder, bool made_folder)
-      : folder_(std::move(folder)), path_(folder_ / ".striae-export"), made_folder_(made_folder) {}
-  Staging(const Staging&) = delete;
-  Staging& operator=(const Staging&) = delete;
-  ~Staging() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-    if (made_folder_) std::filesystem::remove(folder_, ignored);  // only if it is empty
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  Status Publish(const std::vector<ExportedObject>& objects) {
-    for (const ExportedObject& object : objects) {
-      std::error_code error;
-      std::filesystem::rename(path_ / object.file_name, folder_ / object.file_name, error);
-      if (error) {
-        return Fail(ErrorCode::kIo,
-                    "cannot put " + object.file_name + " into " + folder_.string() + ": " + error.message());
-      }
-    }
-    return {};
-  }
-
- private:
-  std::filesystem::path folder_, path_;
-  bool made_folder_;
-};
-
 }  // namespace
 
 Result<SessionExport> ExportSession(store::Record& record, const SessionId& session, bool strip_jpeg_metadata,
@@ -274,7 +233,9 @@ Result<SessionExport> ExportSession(store::Record& record, const SessionId& sess
   if (!staging) return Fail(staging.error());
   auto exported = Exporter(record, *std::move(context), (*staging)->path()).Export();
   if (!exported) return Fail(exported.error());
-  if (auto published = (*staging)->Publish(exported->objects); !published) return Fail(published.error());
+  std::vector<std::string> names;
+  for (const ExportedObject& object : exported->objects) names.push_back(object.file_name);
+  if (auto published = (*staging)->Publish(names); !published) return Fail(published.error());
   return exported;
 }
 
