@@ -158,16 +158,33 @@ inline Mask Eroded(const Grid& grid, const Mask& sound, int reach_x, int reach_y
       }
     }
   });
-  ParallelLines(grid.height, [&](int row) {
-    std::uint8_t* to = eroded.Row(row);
-    const std::uint8_t* own = narrow.Row(row);
-    std::copy(own, own + grid.width, to);
-    for (int y = std::max(0, row - reach_y); y <= std::min(grid.height - 1, row + reach_y); ++y) {
-      const std::uint8_t* from = narrow.Row(y);
-      const std::int32_t *r = grid.region.Row(y), *r0 = grid.region.Row(row);
-      for (int x = 0; x < grid.width; ++x) to[x] = static_cast<std::uint8_t>(to[x] & from[x] & (r[x] == r0[x] ? 1 : 0));
-    }
-  });
+  constexpr int kColumns = 64;
+  ParallelBlocks(
+      grid.width,
+      [&](int, int first, int last) {
+        // Cells of one region above each other so far, from either end.
+        std::vector<int> above(static_cast<std::size_t>(last - first), reach_y), below(above);
+        const auto go_on = [&](std::vector<int>& run, int row, int before) {
+          const std::uint8_t* s = narrow.Row(row);
+          const std::int32_t *r = grid.region.Row(row), *r0 = grid.region.Row(before);
+          for (int x = first; x < last; ++x) {
+            int& count = run[static_cast<std::size_t>(x - first)];
+            count = s[x] == 0 ? 0 : (r[x] != r0[x] ? 1 : count + 1);
+          }
+        };
+        for (int row = 0; row < grid.height; ++row) {
+          go_on(above, row, std::max(0, row - 1));
+          std::uint8_t* to = eroded.Row(row);
+          for (int x = first; x < last; ++x) to[x] = above[static_cast<std::size_t>(x - first)] > reach_y ? 1 : 0;
+        }
+        for (int row = grid.height - 1; row >= 0; --row) {
+          go_on(below, row, std::min(grid.height - 1, row + 1));
+          std::uint8_t* to = eroded.Row(row);
+          for (int x = first; x < last; ++x)
+            if (below[static_cast<std::size_t>(x - first)] <= reach_y) to[x] = 0;
+        }
+      },
+      kColumns);
   return eroded;
 }
 

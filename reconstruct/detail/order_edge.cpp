@@ -216,13 +216,17 @@ std::vector<RegionEdges> FindGratingEdges(const PhaseResult& phase, int regions)
   const EndReader reader(phase);
   std::vector<RegionEdges> edges;
   for (int region = 0; region < regions; ++region) {
-    std::vector<LineEnd> low, high;
+    std::vector<int> with;  // lines that the region lies on
     for (int line = 0; line < lines.count(); line += lines.Step()) {
-      const auto& [first, last] = spans[slot(region, line)];
-      if (first < 0) continue;
-      low.push_back(reader.Read(line, first, +1));
-      high.push_back(reader.Read(line, last, -1));
+      if (spans[slot(region, line)].first >= 0) with.push_back(line);
     }
+    std::vector<LineEnd> low(with.size()), high(with.size());
+    detail::ParallelLines(static_cast<int>(with.size()), [&](int k) {
+      const auto i = static_cast<std::size_t>(k);
+      const auto& [first, last] = spans[slot(region, with[i])];
+      low[i] = reader.Read(with[i], first, +1);
+      high[i] = reader.Read(with[i], last, -1);
+    });
     edges.push_back({JudgeEdge(low, -1, reader), JudgeEdge(high, +1, reader)});
   }
   return edges;

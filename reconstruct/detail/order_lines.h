@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "reconstruct/detail/parallel.h"
 #include "reconstruct/phase.h"
 
 namespace striae::reconstruct::detail {
@@ -38,17 +39,27 @@ class Lines {
   }
 
   /// Calls visit(line, position, region) for the pixels of every Step()-th line that belong to one of the first
-  /// `regions` regions; the positions of a line come in ascending order, memory is read row by row.
+  /// `regions` regions; the positions of a line come in ascending order and from one thread, different lines from
+  /// several.
   template <typename Visit>
   void ForEachPixel(int regions, const Visit& visit) const {
+    constexpr int kTogether = 64;  // lines: memory is read row by row
     const auto& region = phase_.unwrapped.region;
-    const int step = Step(), col_step = horizontal_ ? step : 1, row_step = horizontal_ ? 1 : step;
-    for (int row = 0; row < region.height(); row += row_step) {
-      const std::int32_t* r = region.Row(row);
-      for (int col = 0; col < region.width(); col += col_step) {
-        if (r[col] >= 0 && r[col] < regions) visit(horizontal_ ? col : row, horizontal_ ? row : col, r[col]);
-      }
-    }
+    const int step = Step();
+    ParallelBlocks((count() + step - 1) / step,
+                   [&](int, int first, int last) {
+                     const int from = first * step, to = std::min(count(), last * step);
+                     const int row_first = horizontal_ ? 0 : from, row_last = horizontal_ ? region.height() : to;
+                     const int col_first = horizontal_ ? from : 0, col_last = horizontal_ ? to : region.width();
+                     for (int row = row_first; row < row_last; row += horizontal_ ? 1 : step) {
+                       const std::int32_t* r = region.Row(row);
+                       for (int col = col_first; col < col_last; col += horizontal_ ? step : 1) {
+                         if (r[col] >= 0 && r[col] < regions)
+                           visit(horizontal_ ? col : row, horizontal_ ? row : col, r[col]);
+                       }
+                     }
+                   },
+                   kTogether);
   }
 
  private:
