@@ -6,9 +6,11 @@
 #include "analysis/wound/detail/budget.h"
 #include "analysis/wound/detail/choice.h"
 #include "analysis/wound/detail/deepest.h"
+#include "analysis/wound/detail/maps.h"
 #include "analysis/wound/detail/quantities.h"
 #include "analysis/wound/detail/report.h"
 #include "analysis/wound/detail/scene.h"
+#include "analysis/wound/detail/swelling.h"
 
 namespace striae::wound {
 namespace {
@@ -28,15 +30,11 @@ Status CheckOptions(const Options& o) {
               "wound options: lengths must be positive, and the gaps ascending and not smaller than the margin");
 }
 
-// Null wounds need skin out to the far side of an outline beside the wound. No such skin is no error.
-IntactSkin LookAtIntactSkin(const Surface& surface, const Outline& outline, const Scene& scene, const Ring& ring,
-                            const Options& options) {
+// Null wounds and swelling need skin further out than a wound's own ring.
+double WideReach(const Scene& scene, const Options& options) {
   double across_mm = 0;
   for (const auto& p : scene.outline) across_mm = std::max(across_mm, 2 * (p - scene.outline.front()).norm());
-  const double reach_mm = across_mm + 2 * ring.gap_mm + ring.width_mm + 6;
-  const auto coarse = CoarseScene(surface, outline, scene, std::max(options.null_cell_mm, options.cell_mm), reach_mm);
-  if (!coarse) return {};
-  return TryIntactSkin(*coarse, ring.gap_mm, ring.width_mm, options.max_ring_slope_deg);
+  return std::max(45.0, across_mm + 2 * options.gaps_mm.front() + options.ring_width_mm + 6);
 }
 
 nlohmann::json NullsAsJson(const IntactSkin& intact, std::size_t model) {
@@ -52,16 +50,21 @@ nlohmann::json NullsAsJson(const IntactSkin& intact, std::size_t model) {
 
 std::string_view MethodVersion() { return "wound/2"; }
 
-Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, const Options& options) {
+Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, const Options& options,
+                               WoundMaps* maps) {
   if (auto good = CheckOptions(options); !good) return Fail(good.error());
   auto plus = BuildScene(surface, outline, options);
   if (!plus) return Fail(plus.error());
   const Scene& scene = plus->scene;
 
   const Bed bed = TakeBed(scene, options.margin_mm);
-  auto choice = ChooseRing(scene, bed, options);
+  const auto coarse =
+      CoarseScene(surface, outline, scene, std::max(options.null_cell_mm, options.cell_mm), WideReach(scene, options));
+  if (!coarse) return Fail(coarse.error());
+  auto choice = ChooseRing(scene, *coarse, bed, options);
   if (!choice) return Fail(choice.error());
-  const IntactSkin intact = LookAtIntactSkin(surface, outline, scene, choice->chosen.ring, options);
+  const IntactSkin intact =
+      TryIntactSkin(*coarse, choice->chosen.ring.gap_mm, choice->chosen.ring.width_mm, options.max_ring_slope_deg);
   const ModelChoice model = ChooseModel(choice->chosen, intact);
   Attempt& a = choice->chosen;
   if (model.model != 0) a.skin = FitSkin(kSkinModels[model.model], a.ring.points, a.weights);
@@ -86,6 +89,8 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   findings.line = plus->line;
   const Budget budget = DrawBudget(scene, bed, *choice, model, intact, findings, options, flags);
 
+  if (maps != nullptr) *maps = DrawMaps(scene, a.skin, findings.boundary, options.gaps_mm.front() + 4, 6);
+
   AnalysisReport report;
   report.analysis = "wound";
   report.version = MethodVersion();
@@ -102,6 +107,12 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
                             {"chosen_by", model.by},
                             {"null_wounds", NullsAsJson(intact, model.model)},
                             {"models", budget.models}};
+  if (choice->swelling.looked) {
+    report.details["swelling"] = {{"found", choice->swelling.ends_mm > 0},
+                                  {"height_mm", choice->swelling.height_mm},
+                                  {"ends_mm", choice->swelling.ends_mm},
+                                  {"profile_mm", choice->swelling.profile_mm}};
+  }
   report.details["net_volume_ml"] = *net / 1000;
   report.details["net_volume_at_first_gap_ml"] = choice->first_volume_mm3 / 1000;
   report.details["volume_uncertainty_parts_ml"] = budget.volume_parts_ml;

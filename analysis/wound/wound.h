@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/image.h"
 #include "core/measurement.h"
 #include "core/outline.h"
 #include "core/result.h"
@@ -35,6 +36,19 @@ struct Options {
   double scale_relative_sd = 0.001;  ///< standard uncertainty of the surface's scale (calibration)
 };
 
+/// Heights along a straight cut through the wound's frame, mm; NaN where no bed was measured.
+struct WoundSection {
+  std::vector<double> along_mm, skin_mm, bed_mm;
+};
+
+/// For pictures.
+struct WoundMaps {
+  int col0_px = 0, row0_px = 0, cell_px = 1;  ///< sensor pixels of the map's first cell and of a cell's side
+  double cell_mm = 0;
+  ImageF depth_mm;               ///< below the virtual skin (above it negative); NaN where nothing was measured
+  WoundSection longest, across;  ///< along the longest axis, and across its middle
+};
+
 /// Version of the method: changes whenever a number may change.
 std::string_view MethodVersion();
 
@@ -43,8 +57,10 @@ std::string_view MethodVersion();
 /// depth_p95, depth_mean, length, width mm. Uncertainties are standard uncertainties. The report's provenance holds
 /// the parameters; the caller adds the inputs. Deterministic; single-threaded.
 /// Errors: kBadFile (surface without sensor pixels, outline with fewer than three points, not finite or self-crossing),
-/// kOutlineOffSurface (boundary off the sensor, off the surface or across its edge), kMeasurementRefused (wound too
-/// small, hole inside it, too little or too steep healthy skin around it), kUsage (options that cannot be meant).
-Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, const Options& options = {});
+/// kOutlineOffSurface (drawn on another photograph, boundary off the sensor, off the surface or across its edge),
+/// kMeasurementRefused (wound too small, hole inside it, too little or too steep healthy skin around it), kUsage
+/// (options that cannot be meant). `maps`, where given, is filled with what pictures show.
+Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, const Options& options = {},
+                               WoundMaps* maps = nullptr);
 
 }  // namespace striae::wound

@@ -117,7 +117,7 @@ TEST(SwollenRim, MovesTheRingOutwards) {
   std::cout << "net volume wrong by " << 100 * error / truth << " %, with the ring next to the wound by "
             << 100 * first / truth << " %\n";
   EXPECT_LT(error, first / 2);
-  EXPECT_THAT(report.Find("volume")->reason, ::testing::HasSubstr("uneven skin"));
+  EXPECT_THAT(report.Find("volume")->reason, ::testing::HasSubstr("swollen"));
 }
 
 TEST(Outside, TheLineIsHarmless) {

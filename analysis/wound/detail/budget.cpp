@@ -12,7 +12,7 @@ constexpr double kComparableFit = 1.2;       // a model whose ring rms is worse 
 constexpr double kComparableScore = 1.5;     // nor one that continues intact skin worse than this
 constexpr double kBridgeRelativeSd = 0.1;    // of the volume over bridged holes
 constexpr double kBedAreaRelativeSd = 0.02;  // smoothing rounds the rim
-constexpr double kDepthRelativeSd = 0.01;    // the Fourier window rings at steep walls
+constexpr double kDepthRelativeSd = 0.005;   // the Fourier window rings at steep walls
 
 double RootOfSquares(std::initializer_list<double> parts) {
   double sum = 0;

@@ -12,10 +12,16 @@ constexpr double kLeastCoverage = 0.6, kGoodCoverage = 0.9;
 constexpr double kMostEmptySectors = 0.25;
 constexpr double kMostSteep = 0.1, kMostOutliers = 0.3, kManyOutliers = 0.1;
 constexpr double kTrendT = 3;
+constexpr double kLeastSwelling_mm = 0.1, kSwellingStep_mm = 0.05;
 
-std::optional<Attempt> Try(const Scene& scene, double gap_mm, double width_mm) {
+/// The same wound in small cells near it and in large ones far out.
+struct Scenes {
+  const Scene &fine, &coarse;
+};
+
+std::optional<Attempt> Try(const Scenes& scenes, double gap_mm, double width_mm) {
   Attempt attempt;
-  attempt.ring = TakeRing(scene, gap_mm, width_mm);
+  attempt.ring = TakeRing(gap_mm < kCoarseFrom_mm ? scenes.fine : scenes.coarse, gap_mm, width_mm);
   if (attempt.ring.coverage < kLeastCoverage || attempt.ring.empty_sectors > kMostEmptySectors) return std::nullopt;
   attempt.weights = WeighRing(attempt.ring.points);
   attempt.skin = FitSkin(SkinModel::kQuadricC4, attempt.ring.points, attempt.weights);
@@ -70,28 +76,34 @@ bool HasTrend(const Attempt& attempt, const Options& options) {
 }
 
 // Tries the gaps outwards with one width of the ring.
-Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, double width_mm, const Options& options) {
+Result<Choice> ChooseRing(const Scenes& scenes, const Bed& bed, double width_mm, const Swelling& swelling,
+                          const Options& options) {
   Choice choice;
+  choice.swelling = swelling;
+  const auto volume_of = [&](const Attempt& attempt) { return PrismSum(bed, HeightsAbove(bed, attempt.skin)); };
+  auto first = Try(scenes, options.gaps_mm.front(), width_mm);
+  if (!first) {
+    return Fail(ErrorCode::kMeasurementRefused,
+                "too little healthy skin around the outline: the ring of " + Format("%.0f mm", width_mm) +
+                    " is cut off by the surface's edge or by holes; photograph with more skin around the wound");
+  }
+  choice.first_gap_mm = options.gaps_mm.front();
+  choice.first_volume_mm3 = volume_of(*first);
+  choice.chosen = *std::move(first);
+  choice.settled = swelling.looked ? swelling.ends_mm == 0 : !HasTrend(choice.chosen, options);
+  std::vector<double> gaps = options.gaps_mm;
+  if (swelling.ends_mm > 0) gaps = {options.gaps_mm.front(), swelling.ends_mm, swelling.ends_mm + 2};
   std::size_t at = 0;
-  for (; at < options.gaps_mm.size(); ++at) {
-    auto attempt = Try(scene, options.gaps_mm[at], width_mm);
-    if (!attempt && at == 0) {
-      return Fail(ErrorCode::kMeasurementRefused,
-                  "too little healthy skin around the outline: the ring of " + Format("%.0f mm", width_mm) +
-                      " is cut off by the surface's edge or by holes; photograph with more skin around the wound");
-    }
+  while (!choice.settled && ++at < gaps.size()) {
+    if (gaps[at] <= choice.first_gap_mm) continue;
+    auto attempt = Try(scenes, gaps[at], width_mm);
     if (!attempt) break;
     choice.chosen = *std::move(attempt);
-    if (at == 0) {
-      choice.first_gap_mm = options.gaps_mm[0];
-      choice.first_volume_mm3 = PrismSum(bed, HeightsAbove(bed, choice.chosen.skin));
-    }
-    choice.settled = !HasTrend(choice.chosen, options);
-    if (choice.settled) break;
+    choice.settled = swelling.ends_mm > 0 || !HasTrend(choice.chosen, options);
   }
-  for (std::size_t next = at + 1; next < std::min(at + 3, options.gaps_mm.size()); ++next) {
-    const auto attempt = Try(scene, options.gaps_mm[next], width_mm);
-    if (attempt) choice.other_gap_volumes_mm3.push_back(PrismSum(bed, HeightsAbove(bed, attempt->skin)));
+  for (std::size_t next = at + 1; next < std::min(at + 3, gaps.size()); ++next) {
+    const auto attempt = Try(scenes, gaps[next], width_mm);
+    if (attempt) choice.other_gap_volumes_mm3.push_back(volume_of(*attempt));
   }
   return choice;
 }
@@ -104,14 +116,15 @@ std::string Format(const char* format, double value) {
   return text;
 }
 
-Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, const Options& options) {
-  for (const double share : {1.0, 0.7}) {
-    auto choice = ChooseRing(scene, bed, share * options.ring_width_mm, options);
-    if (!choice) return choice;
-    if (SteepShare(choice->chosen.ring, choice->chosen.skin, options.max_ring_slope_deg) <= kMostSteep) return choice;
-  }
-  // On round bodies the ring's outer half bends away: half of its width must do.
-  return ChooseRing(scene, bed, options.ring_width_mm / 2, options);
+Result<Choice> ChooseRing(const Scene& scene, const Scene& coarse, const Bed& bed, const Options& options) {
+  const Scenes scenes{scene, coarse};
+  const Swelling swelling = FindSwelling(coarse, kLeastSwelling_mm, kSwellingStep_mm);
+  auto choice = ChooseRing(scenes, bed, options.ring_width_mm, swelling, options);
+  if (!choice) return choice;
+  if (SteepShare(choice->chosen.ring, choice->chosen.skin, options.max_ring_slope_deg) <= kMostSteep) return choice;
+  // On round bodies the ring's outer part bends away: less of its width may do.
+  constexpr double kNarrower = 0.7;
+  return ChooseRing(scenes, bed, kNarrower * options.ring_width_mm, swelling, options);
 }
 
 ModelChoice ChooseModel(const Attempt& attempt, const IntactSkin& intact) {
@@ -156,7 +169,11 @@ Status CheckRing(const Choice& choice, const Options& options, Flags& flags) {
     flags.inside.push_back(Format("only %.0f %% of the surrounding ring of skin was seen", 100 * a.ring.coverage));
   }
   if (a.skin.fell_back) flags.inside.push_back("no quadric fits the surrounding skin; a quartic patch was used");
-  if (!choice.settled) {
+  if (choice.swelling.ends_mm > 0) {
+    flags.inside.push_back("the skin beside the wound is swollen by " + Format("%.1f mm", choice.swelling.height_mm) +
+                           ": the ring of healthy skin begins " + Format("%.0f mm out", a.ring.gap_mm) +
+                           Format(", where the swelling ends (%.0f mm)", choice.swelling.ends_mm));
+  } else if (!choice.settled) {
     flags.inside.push_back(Format("the skin is still uneven %.0f mm from the outline (swelling?)", a.ring.gap_mm));
   } else if (a.ring.gap_mm > choice.first_gap_mm) {
     flags.inside.push_back(

@@ -8,6 +8,7 @@
 #include "analysis/wound/detail/quantities.h"
 #include "analysis/wound/detail/report.h"
 #include "analysis/wound/detail/ring.h"
+#include "analysis/wound/detail/swelling.h"
 
 namespace striae::wound {
 
@@ -22,14 +23,16 @@ struct Attempt {
 /// The chosen ring, and what the neighbouring gaps would have given.
 struct Choice {
   Attempt chosen;
+  Swelling swelling;
   bool settled = false;
   double first_gap_mm = 0, first_volume_mm3 = 0;
   std::vector<double> other_gap_volumes_mm3;
 };
 
-/// Tries the gaps outwards until the ring shows no radial trend. kMeasurementRefused when even the first ring is cut
-/// off.
-Result<Choice> ChooseRing(const Scene& scene, const Bed& bed, const Options& options);
+/// The ring begins beside the line, or where swelling ends. Where no outer skin tells of swelling, the gaps are tried
+/// outwards until the ring shows no radial trend. Rings far out are taken from `coarse`. kMeasurementRefused when even
+/// the first ring is cut off.
+Result<Choice> ChooseRing(const Scene& scene, const Scene& coarse, const Bed& bed, const Options& options);
 
 /// Which model of the skin continues healthy skin best, and how that was found.
 struct ModelChoice {

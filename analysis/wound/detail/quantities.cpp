@@ -265,6 +265,8 @@ Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_m
       if (chord <= boundary.length_mm) continue;
       boundary.length_mm = chord;
       axis = (draped[b] - draped[a]) / chord;
+      boundary.axis_from = draped[a].head<2>();
+      boundary.axis_to = draped[b].head<2>();
     }
   }
   // Across: perpendicular to the chord, square to the mean normal of the outline.

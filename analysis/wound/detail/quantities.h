@@ -50,7 +50,8 @@ struct Boundary {
   double plane_area_mm2 = 0;  ///< of the outline in the frame's plane
   double perimeter_mm = 0;    ///< of the outline draped on the skin
   double length_mm = 0;       ///< longest chord of the draped outline
-  double width_mm = 0;        ///< extent across it, in the plane of the chord and the skin's tangents
+  Eigen::Vector2d axis_from = Eigen::Vector2d::Zero(), axis_to = Eigen::Vector2d::Zero();  ///< of that chord
+  double width_mm = 0;  ///< extent across it, in the plane of the chord and the skin's tangents
 };
 /// `smoothing_mm`: of the line before its lengths are taken, which a shaking hand makes longer; its area is as drawn.
 Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_mm, double cell_mm, double smoothing_mm);

@@ -22,6 +22,9 @@ struct Scene {
   std::vector<PolygonPlace> place;     ///< distance is infinite where a cell is missing or off the sheet
 };
 
+/// From here on rings are taken from large cells: their noise averages out, and small ones take time.
+inline constexpr double kCoarseFrom_mm = 9;
+
 struct Ring {
   double gap_mm = 0, width_mm = 0;
   std::vector<Eigen::Vector3d> points;  ///< wound frame; thinned

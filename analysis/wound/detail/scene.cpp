@@ -1,7 +1,10 @@
 #include "analysis/wound/detail/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "analysis/wound/detail/stale.h"
 
 namespace striae::wound {
 namespace {
@@ -17,6 +20,12 @@ Status CheckInputs(const Surface& surface, const Outline& outline) {
     return Fail(ErrorCode::kBadFile,
                 "the surface has no sensor pixels (col, row of each vertex), so an outline cannot be laid on it; use a "
                 "surface that striae reconstruct wrote");
+  }
+  const auto photograph = PhotographOf(surface);
+  if (photograph && outline.image_sha256 && *photograph != *outline.image_sha256) {
+    return Fail(ErrorCode::kOutlineOffSurface,
+                "the outline was drawn on another photograph (" + outline.image_sha256->ToString().substr(0, 12) +
+                    ") than this surface was made from (" + photograph->ToString().substr(0, 12) + "); draw it again");
   }
   if (outline.polygon_px.size() < 3) return Fail(ErrorCode::kBadFile, "an outline needs at least three points");
   for (const auto& p : outline.polygon_px) {
@@ -129,7 +138,8 @@ Result<std::vector<std::uint8_t>> SortCells(ScenePlus& plus, const std::vector<d
 
 Result<ScenePlus> BuildScene(const Surface& surface, const Outline& outline, const Options& options) {
   if (auto good = CheckInputs(surface, outline); !good) return Fail(good.error());
-  const double reach_mm = 1.3 * (options.gaps_mm.back() + options.ring_width_mm);  // rings widen on slopes
+  const double reach_mm =
+      1.3 * (std::min(options.gaps_mm.back(), kCoarseFrom_mm) + options.ring_width_mm);  // rings widen on slopes
   auto patch = CutPatch(surface, outline.polygon_px, options.cell_mm, reach_mm);
   if (!patch) return Fail(patch.error());
   ScenePlus plus;

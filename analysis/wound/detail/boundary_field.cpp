@@ -1,0 +1,187 @@
+#include "analysis/wound/detail/boundary_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/wound/detail/polygon.h"
+#include "analysis/wound/detail/skin.h"
+
+namespace striae::wound {
+namespace {
+
+constexpr double kShallowest_mm = -1.5, kDeepest_mm = 2.5;  // what deeper means than this does not matter to the cut
+constexpr double kColourGain = 3;                           // skin and wound differ by 5 to 40 of a*'s 256 steps
+constexpr double kCore = 0.35;                              // of the box's half sides: surely wound
+
+Eigen::Vector2d ToCell(const Patch& patch, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d first = patch.Pixel(0, 0);
+  return (pixel - first) / patch.bin_px;
+}
+
+std::vector<Eigen::Vector2d> HintPoints(const BoundaryHints& hints) {
+  std::vector<Eigen::Vector2d> all = hints.box;
+  for (const auto& stroke : hints.wound_strokes) all.insert(all.end(), stroke.begin(), stroke.end());
+  return all;
+}
+
+std::vector<std::array<std::uint8_t, 3>> MeanColours(const Surface& surface, const Patch& patch) {
+  std::vector<std::array<double, 4>> sums(patch.size(), {0, 0, 0, 0});
+  for (std::size_t k = 0; k < surface.size(); ++k) {
+    const int i = (surface.col[k] - patch.col0_px) / patch.bin_px, j = (surface.row[k] - patch.row0_px) / patch.bin_px;
+    if (surface.col[k] < patch.col0_px || surface.row[k] < patch.row0_px || i >= patch.width || j >= patch.height)
+      continue;
+    auto& sum = sums[patch.At(i, j)];
+    sum[0] += surface.colour[k].r;
+    sum[1] += surface.colour[k].g;
+    sum[2] += surface.colour[k].b;
+    sum[3] += 1;
+  }
+  std::vector<std::array<std::uint8_t, 3>> means(patch.size(), {0, 0, 0});
+  for (std::size_t c = 0; c < patch.size(); ++c) {
+    for (std::size_t k = 0; k < 3 && sums[c][3] > 0; ++k) {
+      means[c][k] = static_cast<std::uint8_t>(std::lround(sums[c][k] / sums[c][3]));
+    }
+  }
+  return means;
+}
+
+// Depth of every measured cell below a quadric through the cells outside the box.
+std::vector<double> DepthsBelowSkin(const Patch& patch, const std::vector<CellClass>& classes) {
+  std::vector<double> depth(patch.size(), 0);
+  std::vector<Eigen::Vector3d> skin_points;
+  for (std::size_t c = 0; c < patch.size(); c += 3) {
+    if (patch.state[c] == Patch::kMeasured && classes[c] == CellClass::kSkin) skin_points.push_back(patch.point[c]);
+  }
+  if (skin_points.size() < 100) return depth;
+  const Frame frame = FitFrame(skin_points);
+  for (auto& p : skin_points) p = frame.FromCamera(p);
+  const Skin skin = FitSkin(SkinModel::kQuadric, skin_points, WeighRing(skin_points));
+  for (std::size_t c = 0; c < patch.size(); ++c) {
+    if (patch.state[c] != Patch::kMeasured) continue;
+    const Eigen::Vector3d p = frame.FromCamera(patch.point[c]);
+    depth[c] = skin.Height(p.x(), p.y()) - p.z();
+  }
+  return depth;
+}
+
+void MarkStroke(const std::vector<Eigen::Vector2d>& stroke, CellClass mark, BoundaryField& field) {
+  for (std::size_t k = 0; k < stroke.size(); ++k) {
+    const Eigen::Vector2d a = ToCell(field.patch, stroke[k]), b = ToCell(field.patch, stroke[k > 0 ? k - 1 : 0]);
+    const int steps = 1 + static_cast<int>(2 * (b - a).norm());
+    for (int s = 0; s <= steps; ++s) {
+      const Eigen::Vector2d p = a + (b - a) * s / steps;
+      const int i = static_cast<int>(std::lround(p.x())), j = static_cast<int>(std::lround(p.y()));
+      if (i < 0 || j < 0 || i >= field.patch.width || j >= field.patch.height) continue;
+      field.classes[field.patch.At(i, j)] = mark;
+    }
+  }
+}
+
+void MarkBox(const Eigen::Vector2d& low, const Eigen::Vector2d& high, bool core, BoundaryField& field) {
+  const Eigen::Vector2d middle = (low + high) / 2, half = (high - low) / 2;
+  for (int j = 0; j < field.patch.height; ++j) {
+    for (int i = 0; i < field.patch.width; ++i) {
+      const Eigen::Vector2d off = (field.patch.Pixel(i, j) - middle).cwiseAbs().cwiseQuotient(half);
+      auto& mark = field.classes[field.patch.At(i, j)];
+      mark = off.maxCoeff() > 1 ? CellClass::kSkin : CellClass::kProbablyWound;
+      if (core && off.norm() < kCore) mark = CellClass::kWound;
+    }
+  }
+}
+
+std::uint8_t Scaled(double value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))); }
+
+void FillFeatures(const Surface& surface, BoundaryField& field) {
+  const auto lab = ToLab(MeanColours(surface, field.patch));
+  const auto depth = DepthsBelowSkin(field.patch, field.classes);
+  double mean_a = 0, mean_b = 0, count = 0;
+  for (std::size_t c = 0; c < lab.size(); ++c) {
+    if (field.classes[c] != CellClass::kSkin || field.patch.state[c] != Patch::kMeasured) continue;
+    mean_a += lab[c][1];
+    mean_b += lab[c][2];
+    ++count;
+  }
+  if (count > 0) {
+    mean_a /= count;
+    mean_b /= count;
+  }
+  field.features.resize(lab.size());
+  for (std::size_t c = 0; c < lab.size(); ++c) {
+    const bool there = field.patch.state[c] == Patch::kMeasured;
+    const double share =
+        (std::clamp(depth[c], kShallowest_mm, kDeepest_mm) - kShallowest_mm) / (kDeepest_mm - kShallowest_mm);
+    field.features[c] = {there ? Scaled(96 + kColourGain * (lab[c][1] - mean_a)) : std::uint8_t{96},
+                         there ? Scaled(96 + kColourGain * (lab[c][2] - mean_b)) : std::uint8_t{96},
+                         Scaled(there ? 255 * share : 255 * -kShallowest_mm / (kDeepest_mm - kShallowest_mm))};
+  }
+}
+
+void SmoothFeatures(BoundaryField& field) {
+  const Patch& patch = field.patch;
+  field.smooth.assign(patch.size(), Eigen::Vector3d::Zero());
+  for (int j = 0; j < patch.height; ++j) {
+    for (int i = 0; i < patch.width; ++i) {
+      double count = 0;
+      auto& sum = field.smooth[patch.At(i, j)];
+      for (int b = std::max(0, j - 1); b <= std::min(patch.height - 1, j + 1); ++b) {
+        for (int a = std::max(0, i - 1); a <= std::min(patch.width - 1, i + 1); ++a) {
+          const auto& f = field.features[patch.At(a, b)];
+          sum += Eigen::Vector3d(f[0], f[1], f[2]);
+          ++count;
+        }
+      }
+      sum /= count;
+    }
+  }
+}
+
+}  // namespace
+
+Result<BoundaryField> PrepareField(const Surface& surface, const BoundaryHints& hints, const BoundaryOptions& options) {
+  const auto points = HintPoints(hints);
+  if (points.size() < 2) return Fail(ErrorCode::kUsage, "give a box around the wound, or a stroke in it");
+  Eigen::Vector2d low = points.front(), high = low;
+  for (const auto& p : points) {
+    if (!p.allFinite()) return Fail(ErrorCode::kUsage, "a box or stroke has a point that is not finite");
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  if (!((high - low).minCoeff() > 4)) return Fail(ErrorCode::kUsage, "the box around the wound is empty");
+  const bool boxed = !hints.box.empty();
+  if (!boxed) {  // strokes lie well inside: the wound may be as large again on every side
+    const Eigen::Vector2d grow = (high - low).cwiseMax(0.5 * (high - low).maxCoeff());
+    low -= grow;
+    high += grow;
+  }
+  if (!surface.HasGrid() || surface.colour.size() != surface.size()) {
+    return Fail(ErrorCode::kBadFile,
+                "the surface has no sensor pixels or colours; use one that striae reconstruct wrote");
+  }
+  Polygon corners = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+  for (auto& p : corners) {
+    p.x() = std::clamp(p.x(), 0.0, surface.sensor_width_px - 1.0);
+    p.y() = std::clamp(p.y(), 0.0, surface.sensor_height_px - 1.0);
+  }
+  BoundaryField field;
+  // The patch knows the pixel's size first; the margin is a share of the box in pixels, so in mm by a rough cut.
+  auto rough = CutPatch(surface, corners, options.cell_mm, 1);
+  if (!rough) return Fail(rough.error());
+  const double margin_mm = options.margin_share * (high - low).maxCoeff() * rough->pixel_mm;
+  auto patch = CutPatch(surface, corners, options.cell_mm, margin_mm);
+  if (!patch) return Fail(patch.error());
+  field.patch = *std::move(patch);
+  field.classes.assign(field.patch.size(), CellClass::kSkin);
+  MarkBox(low, high, boxed && hints.wound_strokes.empty(), field);
+  for (std::size_t c = 0; c < field.patch.size(); ++c) {
+    if (field.patch.state[c] == Patch::kMissing && field.classes[c] == CellClass::kProbablyWound) {
+      field.classes[c] = CellClass::kProbablySkin;
+    }
+  }
+  FillFeatures(surface, field);
+  SmoothFeatures(field);
+  for (const auto& stroke : hints.wound_strokes) MarkStroke(stroke, CellClass::kWound, field);
+  for (const auto& stroke : hints.skin_strokes) MarkStroke(stroke, CellClass::kSkin, field);
+  return field;
+}
+
+}  // namespace striae::wound
