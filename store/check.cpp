@@ -21,6 +21,7 @@ Result<CheckReport> Check(Record& record, const CheckOptions& options) {
   run("audit trail", [&] { detail::CheckChain(study.database, options, findings); });
   run("study.db", [&] { detail::CheckRowsAgainstTrail(study.database, options.progress, findings); });
   run("objects", [&] { detail::CheckObjects(study.database, study.objects, options.progress, findings); });
+  run("identity.striae", [&] { detail::CheckIdentities(study.database, study.folder, findings); });
   run("study", [&] { detail::CheckLeftovers(study.folder, findings); });
   findings.Close();
   return report;

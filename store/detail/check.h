@@ -39,6 +39,8 @@ void CheckChain(Database& database, const CheckOptions& options, Findings& findi
 void CheckRowsAgainstTrail(Database& database, const Progress& progress, Findings& findings);
 /// Every object is there with its content; nothing lies in objects/ that the record does not know.
 void CheckObjects(Database& database, const ObjectStore& objects, const Progress& progress, Findings& findings);
+/// identity.striae is whole, and one that the trail knows.
+void CheckIdentities(Database& database, const std::filesystem::path& study, Findings& findings);
 /// Files that a program which was stopped has left beside the record.
 void CheckLeftovers(const std::filesystem::path& study, Findings& findings);
 

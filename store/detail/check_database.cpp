@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "store/detail/check.h"
+#include "store/detail/disk.h"
 #include "store/detail/schema.h"
 #include "store/identity.h"
 
@@ -81,12 +82,23 @@ std::vector<fs::path> Leftovers(const fs::path& study) {
   return left;
 }
 
-void CheckLeftovers(const fs::path& study, Findings& findings) {
-  if (fs::exists(study / kIdentityName)) {
-    if (const Status whole = CheckIdentityFile(study / kIdentityName); !whole) {
-      findings.Error(kIdentityName, whole.error().message);
-    }
+void CheckIdentities(Database& database, const fs::path& study, Findings& findings) {
+  const fs::path file = study / kIdentityName;
+  if (!fs::exists(file)) return;
+  if (const Status whole = CheckIdentityFile(file); !whole) {
+    findings.Error(kIdentityName, whole.error().message);
+    return;
   }
+  // Not only the last: its row is written before the file gets its name, and a kill can come between.
+  constexpr const char* kNoted = "SELECT count(*) FROM audit WHERE entity_id = ?1 AND (?2 IS NULL OR new_value = ?2)";
+  const std::optional<std::string> any, digest = HashFile(file).ToString();
+  if (database.Count(kNoted, kIdentityName, any) != 0 && database.Count(kNoted, kIdentityName, digest) == 0) {
+    findings.Warning(kIdentityName,
+                     "is whole, but none that the trail knows: it was put here past the record; ask who did it");
+  }
+}
+
+void CheckLeftovers(const fs::path& study, Findings& findings) {
   for (const fs::path& path : Leftovers(study)) {
     findings.Warning(path.lexically_relative(study).string(),
                      "is unfinished: left by a program that was stopped; 'striae check --repair' settles it");

@@ -164,6 +164,21 @@ TEST_F(StudyIdentities, ChangedLeaveARowWithoutAnyContent) {
   EXPECT_TRUE(study_->Check()->findings.empty());
 }
 
+TEST_F(StudyIdentities, ThatTheTrailDoesNotKnowAreNamedByTheCheck) {
+  ASSERT_THAT(Put(study_.record(), "S001", "Test^Subject"), IsOk());
+  const auto first = ReadBytes(file());
+  ASSERT_THAT(Put(study_.record(), "S001", "Test^Other"), IsOk());
+  EXPECT_TRUE(study_->Check()->findings.empty());
+  WriteBytes(file(), first);
+  EXPECT_TRUE(study_->Check()->findings.empty()) << "a kill between row and file leaves the one before";
+  fs::remove(file());
+  ASSERT_THAT(store::WriteIdentities(file(), {Person("S001", "Test^Third")}, kPassphrase, Random(3), kQuick), IsOk());
+  const auto check = study_->Check();
+  ASSERT_EQ(check->findings.size(), 1U);
+  EXPECT_EQ(check->findings.front().where, store::kIdentityName);
+  EXPECT_NE(check->findings.front().what.find("none that the trail knows"), std::string::npos);
+}
+
 TEST_F(StudyIdentities, ThatAreRefusedLeaveNeitherARowNorAChange) {
   ASSERT_THAT(Put(study_.record(), "S001", "Test^Subject"), IsOk());
   const auto before = ReadBytes(file());
