@@ -112,7 +112,9 @@ TEST(SettleOrder, PartsARegionAlongAShadowThatThePhaseDoesNotKnowOf) {
     if (region >= 0) ++counted.at(static_cast<std::size_t>(region));
   }
   EXPECT_EQ(counted, dimmed.phase.unwrapped.pixels);
-  for (const RegionOrder& region : dimmed.orders) EXPECT_NE(region.warning, "");
+  // What casts the shadow is doubted, even where each part has an end of the grating for itself.
+  const int above = dimmed.phase.unwrapped.region(col, quarter);
+  EXPECT_NE(dimmed.orders.at(static_cast<std::size_t>(above)).warning, "");
 }
 
 TEST(SettleOrder, LeavesARegionWholeThatIsJoinedBesideTheDimmedLine) {
