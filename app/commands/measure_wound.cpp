@@ -9,6 +9,7 @@
 #include "analysis/wound/wound.h"
 #include "app/command.h"
 #include "app/io/files.h"
+#include "app/wound_pictures.h"
 #include "core/outline.h"
 #include "core/ply.h"
 
@@ -16,7 +17,7 @@ namespace striae::app {
 namespace {
 
 struct WoundOptions {
-  std::filesystem::path surface, outline;
+  std::filesystem::path surface, outline, pictures;
 };
 
 std::string Line(const Measurement& m) {
@@ -57,10 +58,16 @@ Status Run(const WoundOptions& options, Context& context) {
   const auto outline = OutlineFromJson({reinterpret_cast<const char*>(outline_bytes->data()), outline_bytes->size()});
   if (!outline) return Fail(outline.error(), "reading the outline " + options.outline.string());
 
-  auto report = wound::Measure(*surface, *outline);
+  wound::WoundMaps maps;
+  auto report = wound::Measure(*surface, *outline, {}, options.pictures.empty() ? nullptr : &maps);
   if (!report) return Fail(report.error(), "measuring the wound on " + options.surface.string());
   for (const std::string& warning : Warnings(*surface)) FlagAll(*report, "the surface: " + warning);
   report->provenance.inputs = {{"surface", HashOf(*surface_bytes)}, {"outline", HashOf(*outline_bytes)}};
+  if (!options.pictures.empty()) {
+    const auto written = WriteWoundPictures(options.pictures, *surface, *outline, maps);
+    if (!written) return Fail(written.error(), "drawing the wound");
+    report->details["pictures"] = *written;
+  }
   context.Output(ToJson(*report), Text(*report));
   return {};
 }
@@ -76,6 +83,8 @@ void AddCommand_measure_wound(CLI::App& root, Context& context) {
       ->required();
   command->add_option("--outline", options->outline, "Outline of the wound in sensor pixels (JSON, LabelMe too)")
       ->required();
+  command->add_option("--pictures", options->pictures,
+                      "Folder for boundary.png, depth.png (0 to 15 mm) and sections.svg");
   OnRun(command, context, [options](Context& c) { return Run(*options, c); });
 }
 

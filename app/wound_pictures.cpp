@@ -1,0 +1,137 @@
+#include "app/wound_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/io/colour_bar.h"
+#include "app/io/files.h"
+#include "report/drawing.h"
+#include "report/picture.h"
+
+namespace striae::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDeepest_mm = 15;  // of the depth map's scale
+constexpr Rgb8 kLine{40, 220, 255}, kNothing{235, 235, 235}, kInk{40, 40, 40}, kSkin{190, 120, 90}, kBed{160, 20, 30};
+
+void DrawOutline(const Outline& outline, const wound::WoundMaps& maps, ImageRgb& picture) {
+  const std::size_t n = outline.polygon_px.size();
+  const double half = (maps.cell_px - 1) / 2.0;
+  const auto cell = [&](const Eigen::Vector2d& p) {
+    return Eigen::Vector2d((p.x() - maps.col0_px - half) / maps.cell_px, (p.y() - maps.row0_px - half) / maps.cell_px);
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    const Eigen::Vector2d a = cell(outline.polygon_px[k]), b = cell(outline.polygon_px[(k + 1) % n]);
+    const int steps = 1 + static_cast<int>(2 * (b - a).norm());
+    for (int s = 0; s <= steps; ++s) {
+      const Eigen::Vector2d p = a + (b - a) * s / steps;
+      const int col = static_cast<int>(std::lround(p.x())), row = static_cast<int>(std::lround(p.y()));
+      if (picture.Contains(col, row)) picture(col, row) = kLine;
+    }
+  }
+}
+
+// The surface's colours, which the stripes are taken out of, cell by cell.
+ImageRgb Photo(const Surface& surface, const wound::WoundMaps& maps) {
+  ImageRgb picture(maps.depth_mm.width(), maps.depth_mm.height(), kNothing);
+  for (std::size_t k = 0; k < surface.size() && k < surface.colour.size(); ++k) {
+    if (surface.col[k] < maps.col0_px || surface.row[k] < maps.row0_px) continue;
+    const int col = (surface.col[k] - maps.col0_px) / maps.cell_px,
+              row = (surface.row[k] - maps.row0_px) / maps.cell_px;
+    if (picture.Contains(col, row)) picture(col, row) = surface.colour[k];
+  }
+  return picture;
+}
+
+ImageRgb DepthPicture(const wound::WoundMaps& maps) {
+  const ImageF& depth = maps.depth_mm;
+  const int bar_px = static_cast<int>(kBarWidth) + 1;
+  ImageRgb picture(depth.width() + bar_px, depth.height(), Rgb8{255, 255, 255});
+  for (int row = 0; row < depth.height(); ++row) {
+    for (int col = 0; col < depth.width(); ++col) {
+      const float d = depth(col, row);
+      picture(col, row) = std::isfinite(d) ? Viridis(static_cast<double>(d) / kDeepest_mm) : kNothing;
+    }
+  }
+  Paste(ColourBar({0, kDeepest_mm, "mm", false}, depth.height(), 1), depth.width(), picture);
+  return picture;
+}
+
+// One section with equal scales both ways; NaN parts the bed's line.
+void DrawSection(const wound::WoundSection& section, const std::string& title, double top_pt, double pt_per_mm,
+                 report::Drawing& drawing) {
+  double high = -1e9;
+  for (const double z : section.skin_mm) high = std::max(high, z);
+  const auto point = [&](std::size_t k, double z) {
+    return report::Point{20 + section.along_mm[k] * pt_per_mm, top_pt + 14 + (high - z) * pt_per_mm};
+  };
+  drawing.Text({20, top_pt + 6}, 8, title, kInk);
+  std::vector<report::Point> skin, bed;
+  const auto end_bed = [&] {
+    if (bed.size() > 1) drawing.Line(bed, 1.2, kBed);
+    bed.clear();
+  };
+  for (std::size_t k = 0; k < section.along_mm.size(); ++k) {
+    skin.push_back(point(k, section.skin_mm[k]));
+    if (std::isfinite(section.bed_mm[k])) {
+      bed.push_back(point(k, section.bed_mm[k]));
+    } else {
+      end_bed();
+    }
+  }
+  end_bed();
+  if (skin.size() > 1) drawing.Line(skin, 1, kSkin, true);
+}
+
+double HeightOf(const wound::WoundSection& section) {
+  double low = 1e9, high = -1e9;
+  for (std::size_t k = 0; k < section.along_mm.size(); ++k) {
+    low = std::min(low, section.skin_mm[k]);
+    high = std::max(high, section.skin_mm[k]);
+    if (std::isfinite(section.bed_mm[k])) low = std::min(low, section.bed_mm[k]);
+  }
+  return std::max(0.0, high - low);
+}
+
+report::Drawing Sections(const wound::WoundMaps& maps) {
+  report::Drawing drawing;
+  const double longest = std::max({1.0, maps.longest.along_mm.back(), maps.across.along_mm.back()});
+  const double pt_per_mm = 440 / longest;
+  const double first = HeightOf(maps.longest) * pt_per_mm + 40, second = HeightOf(maps.across) * pt_per_mm + 40;
+  drawing.width = 480;
+  drawing.height = first + second + 16;
+  drawing.description = "Sections of the wound: measured bed (full) and virtual skin (dashed)";
+  DrawSection(maps.longest, "along the longest axis", 4, pt_per_mm, drawing);
+  DrawSection(maps.across, "across it", first, pt_per_mm, drawing);
+  const double y = drawing.height - 8;
+  drawing.Line({{20, y}, {20 + 10 * pt_per_mm, y}}, 1.5, kInk);
+  drawing.Text({24 + 10 * pt_per_mm, y + 3}, 8, "10 mm; dashed: virtual skin, full: measured bed", kInk);
+  return drawing;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> WriteWoundPictures(const fs::path& folder, const Surface& surface,
+                                                    const Outline& outline, const wound::WoundMaps& maps) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return Fail(ErrorCode::kIo, "cannot make the folder " + folder.string() + ": " + failed.message());
+  ImageRgb photo = Photo(surface, maps), depth = DepthPicture(maps);
+  DrawOutline(outline, maps, photo);
+  DrawOutline(outline, maps, depth);
+  std::vector<std::string> written;
+  for (const auto& [name, picture] : {std::pair{"boundary.png", &photo}, std::pair{"depth.png", &depth}}) {
+    const auto bytes = report::EncodePng(*picture);
+    if (!bytes) return Fail(bytes.error());
+    if (Status done = WriteFile(folder / name, *bytes); !done) return Fail(done.error());
+    written.push_back((folder / name).string());
+  }
+  const fs::path sections = folder / "sections.svg";
+  if (Status done = WriteText(sections, ToSvg(Sections(maps))); !done) return Fail(done.error());
+  written.push_back(sections.string());
+  return written;
+}
+
+}  // namespace striae::app
