@@ -77,7 +77,7 @@ class KilledStudy {
   Command Repair(const std::string& round);
   Command SetIdentity(const std::string& round);
 
-  [[nodiscard]] std::string Photo(const std::string& name) const;
+  std::string Photo(const std::string& name) const;
   std::string WriteOutline(const std::string& round);
   [[nodiscard]] std::string Open(const std::string& subject, const std::string& visit) const;
   std::string Write(const std::string& name, const std::string& text) const;
