@@ -232,7 +232,8 @@ Result<PhaseResult> Measure(const Source& source, const PhaseOptions& options) {
   result.direction = chosen->direction;
   result.carrier_period_px = chosen->carrier.period_px;
   result.carrier_prominence = chosen->carrier.prominence;
-  const LineAnalysis analysis(chosen->layout.length(), result.carrier_period_px, options.window_half_width);
+  const LineAnalysis analysis(chosen->layout.length(), result.carrier_period_px, options.window_half_width,
+                              options.remove_background);
   const LightReader reader(source, chosen->layout, options.smoothing_along * result.carrier_period_px);
   const auto limits = LimitsOf(analysis, reader, chosen->layout, options, result);
 

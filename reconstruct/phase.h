@@ -18,6 +18,8 @@ struct PhaseOptions {
   std::optional<StripeDirection> direction;  ///< found when not given
   /// Half width of the Hann window over the carrier's frequency. Wider keeps edges, narrower removes noise.
   double window_half_width = 0.9;
+  /// The local mean is subtracted before the transform, so that its steps do not reach into the window.
+  bool remove_background = true;
   /// Smoothing along the stripes (standard deviation of a Gaussian, in periods): with the Hann window it makes a window
   /// in two dimensions. Across the stripes the window reaches much farther, so that no detail is lost.
   double smoothing_along = 0;

@@ -53,11 +53,12 @@ double LitShare(const float* lane, int length, float least) {
 
 }  // namespace
 
-LineAnalysis::LineAnalysis(int length, double period_px, double half_width)
+LineAnalysis::LineAnalysis(int length, double period_px, double half_width, bool remove_background)
     : length_(length),
       // Two periods: as far as the window's kernel reaches, lest the line's end be mixed with its start.
       padded_(FastLength(length + static_cast<int>(std::ceil(2 * period_px)))),
       period_px_(period_px),
+      remove_background_(remove_background),
       plans_(padded_) {
   const double center = padded_ / period_px;
   first_ = std::max(1, static_cast<int>(std::ceil(center * (1 - half_width))));
@@ -104,7 +105,9 @@ bool LineAnalysis::Unlit(const float* light, float least_amplitude, float least_
 
 void LineAnalysis::Stripes(const float* light, const Signal& out, Scratch& scratch) const {
   const auto stride = static_cast<std::size_t>(length_);
-  SubtractToLines(light, out.background, length_, scratch.lines.get(), stride);
+  if (!remove_background_) std::fill(scratch.once.begin(), scratch.once.end(), 0.0F);
+  const float* background = remove_background_ ? out.background : scratch.once.data();
+  SubtractToLines(light, background, length_, scratch.lines.get(), stride);
   float *phases = scratch.lines.get(),
         *amplitudes = scratch.amplitudes.get();  // a line is done with when it is transformed
   for (std::size_t lane = 0; lane < kLanes; ++lane) {

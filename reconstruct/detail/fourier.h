@@ -12,7 +12,7 @@ namespace striae::reconstruct::detail {
 /// f0 (1 - half_width) .. f0 (1 + half_width) (the paper's section 3). Lines are padded to a length that FFTW likes.
 class LineAnalysis {
  public:
-  LineAnalysis(int length, double period_px, double half_width);
+  LineAnalysis(int length, double period_px, double half_width, bool remove_background = true);
 
   /// One thread's memory.
   class Scratch {
@@ -51,6 +51,7 @@ class LineAnalysis {
   void Transform(const float* line, Scratch& scratch) const;
   int length_, padded_, first_ = 0;
   double period_px_;
+  bool remove_background_;
   std::vector<float> window_;  ///< from bin first_ on: 2 * Hann / padded length
   Plans plans_;
 };

@@ -44,6 +44,9 @@ std::vector<Setting> Settings() {
              o.phase.smoothing_along = 0.125;
            }},
           {"sRGB not decoded", none, false},
+          {"background not removed", [](ReconstructOptions& o) { o.phase.remove_background = false; }},
+          {"ends not trimmed", [](ReconstructOptions& o) { o.phase.rim_periods = 0; }},
+          {"mask: no largest modulation", [](ReconstructOptions& o) { o.phase.most_modulation = 10; }},
           {"mask: plateau share 0.25", [](ReconstructOptions& o) { o.phase.least_plateau_share = 0.25; }},
           {"mask: plateau share 0.55", [](ReconstructOptions& o) { o.phase.least_plateau_share = 0.55; }},
           {"mask: no share between", [](ReconstructOptions& o) { o.phase.least_share_between = 0.4; }},
