@@ -21,6 +21,7 @@ using detail::Patch;
 
 constexpr double kLargestNeckMoveMm = 110;  // protraction or side shift of a neck; one stripe in depth is 135 mm
 constexpr double kLeastVisible = 0.4;
+constexpr double kRivalRatio = 1.1, kRivalMargin = 0.01;  // losses of the same basin differ by less than a hundredth
 
 Status Check(const Options& options) {
   const Eigen::Vector3d up = options.up_in_camera;
@@ -85,6 +86,11 @@ Status Judge(const Fit& fit, const std::string& part, const Options& options) {
                   Number(options.largest_residual_mm, "%.1f mm") +
                   ": a different person, or stripes out of order in one capture");
   }
+  if (fit.rival_loss < kRivalRatio * fit.loss + kRivalMargin) {
+    return refuse(
+        "fits the other capture in two different ways almost equally well: repeat the capture with the whole "
+        "face and chest in the light");
+  }
   const double hold = detail::Observability_mm(fit.pairs);
   if (hold < options.least_observability_mm) {
     return refuse("is too smooth to fix its rotation (" + Number(hold, "%.1f mm") +
@@ -106,7 +112,7 @@ Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, cons
   if (to->first.size() < 1000 || to->second.size() < 100) {
     return Fail(ErrorCode::kMeasurementRefused, "the other capture has too few points for a head and a torso");
   }
-  const auto parts = detail::Segment(from->first, subject_from_camera);
+  const auto parts = detail::Segment(from->first, subject_from_camera, options.regions);
   if (!parts) return Fail(parts.error());
 
   const Capture capture{detail::Target(to->second), detail::Target(to->first)};
@@ -131,7 +137,10 @@ Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, cons
           .toRotationMatrix();
   const auto sd = detail::Uncertainties(head, torso, subject_from_camera, options);
   if (!sd) return Fail(ErrorCode::kMeasurementRefused, "the skin in common is too small to state an uncertainty");
-  return detail::Report(head, torso, rotation, subject_from_camera, *sd, options);
+  Regions used = options.regions;
+  if (used.head_px.empty()) used.head_px = detail::HullOf(from->first, parts->head);
+  if (used.torso_px.empty()) used.torso_px = detail::HullOf(from->first, parts->torso);
+  return detail::Report(head, torso, rotation, subject_from_camera, *sd, used, options);
 }
 
 }  // namespace striae::head

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "analysis/head/regions.h"
 #include "core/measurement.h"
 #include "core/result.h"
 #include "core/surface.h"
@@ -15,6 +16,8 @@
 namespace striae::head {
 
 struct Options {
+  /// Drawn on the neutral photograph instead of found; kept in the result.
+  Regions regions;
   /// Where the top of the subject's head points in the neutral capture's camera frame.
   Eigen::Vector3d up_in_camera{0, -1, 0};
   /// Spacing to which captures are thinned on the sensor grid, mm: 2 mm halved the error of 5 mm in trials.
@@ -28,9 +31,9 @@ struct Options {
   double least_observability_mm = 5.0;
   /// Standard uncertainty of the camera's axes as the subject's axes, about each axis.
   double axes_sd_deg = 2.0;
-  /// Part of every angle's uncertainty that resampling cannot see: a chest that is 4 mm higher by breathing turns its
-  /// own skin by 0.7 deg; expression; field curvature of the calibration.
-  double floor_sd_deg = 0.5;
+  /// Part of every angle's uncertainty that resampling cannot see: what is wrong all over a patch (expression, a
+  /// breath, field curvature of the calibration).
+  double floor_sd_deg = 0.2;
   int resamples = 200;  ///< of the block bootstrap
   std::uint64_t seed = 1;
 };
@@ -38,7 +41,8 @@ struct Options {
 /// Both surfaces in mm in their own camera's frame, from the same device or not; vertices with or without sensor grid.
 /// Measurements: rotation, flexion, tilt, total_angle (deg); details: rotation_matrix (3x3 rows, neutral camera
 /// frame, takes a head vector of the neutral pose to the new pose), axes_source, sequence, residual_mm, overlap,
-/// observability_mm for head and torso, words.
+/// observability_mm for head and torso, words, TWSTRS bands where they have degrees, registration_uncertainty (without
+/// the axes' part), and the regions in the neutral capture's pixels with their origin (found or drawn).
 /// kMeasurementRefused when no head or torso is found, a patch does not fit or slides freely, or the head moved too far
 /// against the torso to be the same body. Beyond a tilt of 80 deg the angles are flagged.
 /// kUsage for options that cannot be meant. Same result for any number of threads.

@@ -13,17 +13,19 @@ namespace striae::head::detail {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-/// Points with their standard uncertainty along the ray, mm; same length.
+/// Points with their standard uncertainty along the ray, mm, and their pixel; same length.
 struct Thinned {
   Points point;
   std::vector<float> sd_mm;
+  std::vector<Eigen::Vector2f> pixel;  ///< mean (col, row); NaN without a sensor grid
   [[nodiscard]] std::size_t size() const { return point.size(); }
 };
 
-/// Points with unit normals towards the camera and their standard uncertainty, mm; same length.
+/// Points with unit normals towards the camera their standard uncertainty, mm, and their pixel; same length.
 struct Cloud {
   Points point, normal;
   std::vector<float> sd_mm;
+  std::vector<Eigen::Vector2f> pixel;  ///< as Thinned
   [[nodiscard]] std::size_t size() const { return point.size(); }
 };
 

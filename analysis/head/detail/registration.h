@@ -34,6 +34,7 @@ struct Fit {
   double agreement = 0;     ///< mean share of their weight that the pairs keep in the robust least squares
   double visible = 0;       ///< share of the patch's points that face the camera after the motion, within the field
   double loss = 1;          ///< mean over all points of the patch of min(1, (distance / gate)^2): compares starts
+  double rival_loss = 1;    ///< of the best other motion, more than 5 degrees away, that the starts led to
 };
 
 /// One stage: counterparts within `distance_mm` whose normals differ by at most `normals_deg`; at most `iterations`.

@@ -84,6 +84,7 @@ Result<Cloud> WithNormals(const Thinned& points, double radius_mm) try {
     cloud.point.push_back(points.point[i]);
     cloud.normal.push_back(normal.normalized());
     cloud.sd_mm.push_back(points.sd_mm[i]);
+    cloud.pixel.push_back(points.pixel[i]);
   }
   return cloud;
 } catch (const std::exception& e) {

@@ -7,6 +7,7 @@
 
 #include "analysis/head/angles.h"
 #include "analysis/head/detail/uncertainty.h"
+#include "analysis/head/twstrs.h"
 
 namespace striae::head::detail {
 namespace {
@@ -23,14 +24,24 @@ nlohmann::json Part(const Fit& fit) {
   return {{"residual_mm", fit.residual_mm},
           {"overlap", fit.overlap},
           {"visible", fit.visible},
+          {"agreement", fit.agreement},
+          {"loss", fit.loss},
+          {"rival_loss", fit.rival_loss},
           {"observability_mm", Observability_mm(fit.pairs)},
           {"points", fit.pairs.size()}};
 }
 
+nlohmann::json RegionsJson(const Regions& used, const Regions& drawn) {
+  nlohmann::json json = nlohmann::json::parse(ToJsonText(used));
+  json["head_source"] = drawn.head_px.empty() ? "found" : "drawn";
+  json["torso_source"] = drawn.torso_px.empty() ? "found" : "drawn";
+  return json;
+}
+
 }  // namespace
 
-std::optional<AngleArray> Uncertainties(const Fit& head, const Fit& torso, const Eigen::Matrix3d& subject_from_camera,
-                                        const Options& options) {
+std::optional<AngleUncertainty> Uncertainties(const Fit& head, const Fit& torso,
+                                              const Eigen::Matrix3d& subject_from_camera, const Options& options) {
   const auto heads = BootstrapRotations(head.pairs, kCellMm, options.resamples, options.seed);
   const auto torsos = BootstrapRotations(torso.pairs, kCellMm, options.resamples, options.seed + 1);
   if (heads.size() < 2 || heads.size() != torsos.size()) return std::nullopt;
@@ -57,21 +68,25 @@ std::optional<AngleArray> Uncertainties(const Fit& head, const Fit& torso, const
       variance[k] += difference(sample, k) * difference(sample, k) / static_cast<double>(heads.size());
     }
   }
+  AngleUncertainty sd;
+  AngleArray of_axes{};
   const double axes_sd_rad = Angle::Degrees(options.axes_sd_deg).rad();
   for (int axis = 0; axis < 3; ++axis) {
     const AngleArray sample = angles_with(none, none, axes_sd_rad * Eigen::Vector3d::Unit(axis));
-    for (std::size_t k = 0; k < 4; ++k) variance[k] += difference(sample, k) * difference(sample, k);
+    for (std::size_t k = 0; k < 4; ++k) of_axes[k] += difference(sample, k) * difference(sample, k);
   }
-  AngleArray sd{};
   for (std::size_t k = 0; k < 4; ++k) {
-    sd[k] = std::sqrt(variance[k] + options.floor_sd_deg * options.floor_sd_deg);
-    if (!std::isfinite(sd[k])) return std::nullopt;
+    variance[k] += options.floor_sd_deg * options.floor_sd_deg;
+    sd.registration[k] = std::sqrt(variance[k]);
+    sd.whole[k] = std::sqrt(variance[k] + of_axes[k]);
+    if (!std::isfinite(sd.whole[k])) return std::nullopt;
   }
   return sd;
 }
 
 AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& rotation,
-                      const Eigen::Matrix3d& subject_from_camera, const AngleArray& sd, const Options& options) {
+                      const Eigen::Matrix3d& subject_from_camera, const AngleUncertainty& sd, const Regions& used,
+                      const Options& options) {
   const std::array<Measurement, 4> names{{
       {"rotation", {"99STRIAE", "HT-ROT", "Head rotation relative to torso, positive to subject's left"}},
       {"flexion", {"99STRIAE", "HT-FLEX", "Head flexion relative to torso, positive chin to chest"}},
@@ -80,7 +95,7 @@ AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& 
   }};
   AnalysisReport report;
   report.analysis = "head";
-  report.version = "1";
+  report.version = "2";
   report.provenance.version = StriaeVersion();
   report.provenance.parameters = {{"spacing_mm", options.spacing_mm},
                                   {"least_overlap", options.least_overlap},
@@ -92,18 +107,22 @@ AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& 
                                   {"largest_residual_mm", options.largest_residual_mm}};
   const AngleArray angles = AnglesOf(subject_from_camera * rotation * subject_from_camera.transpose());
   const bool singular = std::abs(angles[2]) > kSingularTilt;
-  nlohmann::json words = nlohmann::json::object();
+  nlohmann::json words = nlohmann::json::object(), registration = words, bands = words;
   for (std::size_t k = 0; k < 4; ++k) {
     Measurement m = names[k];
     m.value = angles[k];
     m.unit = "deg";
-    m.uncertainty = sd[k];
+    m.uncertainty = sd.whole[k];
     if (singular && k < 3) {
       m.status = Measurement::Status::kFlagged;
       m.reason =
           "beyond a tilt of 80 deg rotation and flexion cannot be told apart: use rotation_matrix and total_angle";
     }
     words[m.name] = InWords(m.name, m.value);
+    registration[m.name] = sd.registration[k];
+    if (const auto band = TwstrsBand(m.name, m.value); band && !(singular && k < 3)) {
+      bands[m.name] = {{"score", band->score}, {"words", band->words}};
+    }
     report.measurements.push_back(std::move(m));
   }
   nlohmann::json rows = nlohmann::json::array();
@@ -112,6 +131,9 @@ AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& 
                     {"axes_source", "camera"},
                     {"sequence", "Z-X-Y intrinsic, ISB axes (X forward, Y up, Z right): extension, tilt, rotation"},
                     {"words", words},
+                    {"registration_uncertainty", registration},
+                    {"twstrs_bands", bands},
+                    {"regions", RegionsJson(used, options.regions)},
                     {"head", Part(head)},
                     {"torso", Part(torso)}};
   report.details["residual_mm"] = {{"head", head.residual_mm}, {"torso", torso.residual_mm}};

@@ -15,13 +15,19 @@ namespace striae::head::detail {
 /// rotation, flexion, tilt, total; deg.
 using AngleArray = std::array<double, 4>;
 
-/// Standard uncertainties of the four angles: resampled registrations, their floor, and the axes' own error. None where
-/// the pairs are too few to be resampled.
-std::optional<AngleArray> Uncertainties(const Fit& head, const Fit& torso, const Eigen::Matrix3d& subject_from_camera,
-                                        const Options& options);
+/// Standard uncertainties of the four angles.
+struct AngleUncertainty {
+  AngleArray registration{};  ///< resampled registrations, and their floor
+  AngleArray whole{};         ///< with the axes' own error
+};
 
-/// `rotation` = R_torso^T R_head in the neutral camera's frame.
+/// None where the pairs are too few to be resampled.
+std::optional<AngleUncertainty> Uncertainties(const Fit& head, const Fit& torso,
+                                              const Eigen::Matrix3d& subject_from_camera, const Options& options);
+
+/// `rotation` = R_torso^T R_head in the neutral camera's frame; `used`: the patches' outlines, drawn or found.
 AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& rotation,
-                      const Eigen::Matrix3d& subject_from_camera, const AngleArray& sd, const Options& options);
+                      const Eigen::Matrix3d& subject_from_camera, const AngleUncertainty& sd, const Regions& used,
+                      const Options& options);
 
 }  // namespace striae::head::detail

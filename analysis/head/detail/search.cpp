@@ -16,6 +16,7 @@ constexpr std::array<Stage, 3> kFine{{{30, 35, 15}, {12, 35, 15}, {6, 20, 30, tr
 constexpr double kCoarseGateMm = 15;  // two and a half coarse spacings
 constexpr double kFineGateMm = 6;
 constexpr std::size_t kFinalists = 3;
+constexpr double kRivalRad = 5 * kDegree;
 
 /// A turn about a point.
 Eigen::Isometry3d TurnAbout(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& pivot) {
@@ -46,13 +47,21 @@ Fit Search(const Patch& patch, const Capture& capture, const std::vector<Eigen::
     if (!known) finalists.push_back(candidate);
     if (finalists.size() == kFinalists) break;
   }
-  Fit best;
+  std::vector<Fit> refined;
   for (const Fit& finalist : finalists) {
     // Clearly worse on the coarse points: a wrong basin, not worth the fine points' time.
     if (finalist.loss > 1.5 * finalists.front().loss + 0.02) continue;
     Fit fit =
         capture.fine.Judge(patch.fine, capture.fine.Align(patch.fine, finalist.target_from_patch, kFine), kFineGateMm);
-    if (fit.loss < best.loss) best = std::move(fit);
+    refined.push_back(std::move(fit));
+  }
+  std::stable_sort(refined.begin(), refined.end(), [](const Fit& a, const Fit& b) { return a.loss < b.loss; });
+  if (refined.empty()) return {};
+  Fit best = std::move(refined.front());
+  for (std::size_t i = 1; i < refined.size(); ++i) {
+    if (AngleBetween(best.target_from_patch, refined[i].target_from_patch) > kRivalRad) {
+      best.rival_loss = std::min(best.rival_loss, refined[i].loss);
+    }
   }
   return best;
 }

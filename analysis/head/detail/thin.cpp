@@ -28,6 +28,7 @@ double Spacing(const Surface& s) {
 struct Block {
   float nearest = std::numeric_limits<float>::infinity();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd = 0;
   int count = 0;
 };
@@ -56,6 +57,7 @@ Thinned ThinGrid(const Surface& s, int stride, double spacing_mm) {
     Block& block = block_of(i);
     if (s.point_in_camera[i].z() > block.nearest + side) continue;
     block.sum += s.point_in_camera[i].cast<double>();
+    block.pixel += Eigen::Vector2d(s.col[i], s.row[i]);
     block.sd += SdOf(s, i);
     ++block.count;
   }
@@ -65,6 +67,7 @@ Thinned ThinGrid(const Surface& s, int stride, double spacing_mm) {
     if (block.count > 0 && 4 * block.count >= stride * stride) {
       thinned.point.push_back((block.sum / block.count).cast<float>());
       thinned.sd_mm.push_back(static_cast<float>(block.sd / block.count));
+      thinned.pixel.push_back((block.pixel / block.count).cast<float>());
     }
   }
   return thinned;
@@ -91,6 +94,7 @@ Thinned ThinVoxels(const Surface& s, double spacing_mm) {
     }
     thinned.point.push_back((sum / static_cast<double>(end - begin)).cast<float>());
     thinned.sd_mm.push_back(static_cast<float>(sd / static_cast<double>(end - begin)));
+    thinned.pixel.push_back(Eigen::Vector2f::Constant(std::numeric_limits<float>::quiet_NaN()));
     begin = end;
   }
   return thinned;
@@ -103,10 +107,12 @@ Cloud Select(const Cloud& cloud, const std::vector<std::uint32_t>& indices) {
   selected.point.reserve(indices.size());
   selected.normal.reserve(indices.size());
   selected.sd_mm.reserve(indices.size());
+  selected.pixel.reserve(indices.size());
   for (const std::uint32_t i : indices) {
     selected.point.push_back(cloud.point[i]);
     selected.normal.push_back(cloud.normal[i]);
     selected.sd_mm.push_back(cloud.sd_mm[i]);
+    selected.pixel.push_back(cloud.pixel[i]);
   }
   return selected;
 }
