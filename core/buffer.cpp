@@ -69,7 +69,7 @@ class Shelf {
   std::size_t held_ = 0;
 };
 
-Shelf& TheShelf() {
+[[maybe_unused]] Shelf& TheShelf() {
   static auto* shelf = new Shelf;  // never destroyed: buffers of static storage may outlive it
   return *shelf;
 }
@@ -86,7 +86,7 @@ void* AllocateBuffer(std::size_t bytes) {
   return Fresh(rounded);
 }
 
-void FreeBuffer(void* memory, std::size_t bytes) noexcept {
+void FreeBuffer(void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   const std::size_t rounded = Rounded(bytes);
   // A block that came from the shelf may be larger than what was asked for; it is put back as what it was asked for.
