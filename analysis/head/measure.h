@@ -25,7 +25,7 @@ struct Options {
   /// Share of a patch's points, of those that face the camera after the motion, that must find their counterpart.
   double least_overlap = 0.8;
   /// Largest root mean square distance (point to plane) of the counterparts, mm.
-  double largest_residual_mm = 2.5;
+  double largest_residual_mm = 1.2;
   /// Smallest resistance of a patch against being turned: root mean square shift along the normals for a turn of
   /// 1 rad about the weakest axis, mm. Zero for a sphere.
   double least_observability_mm = 5.0;
