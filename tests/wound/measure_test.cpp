@@ -160,9 +160,9 @@ RC_GTEST_PROP(WoundMeasurement, ScalesWithTheWorld, ()) {
   Surface scaled = kSurface;
   for (auto& p : scaled.point_in_camera) p *= static_cast<float>(scale);
   Options options;
-  for (double* length :
-       {&options.cell_mm, &options.margin_mm, &options.ring_width_mm, &options.radial_trend_mm, &options.wall_sd_mm,
-        &options.bridge_mm, &options.smoothing_mm, &options.perimeter_step_mm, &options.outline_sd_mm}) {
+  for (double* length : {&options.cell_mm, &options.margin_mm, &options.ring_width_mm, &options.radial_trend_mm,
+                         &options.wall_sd_mm, &options.bridge_mm, &options.smoothing_mm, &options.perimeter_step_mm,
+                         &options.outline_sd_mm, &options.null_cell_mm, &options.deepest_mm, &options.resolution_mm}) {
     *length *= scale;
   }
   for (double& gap : options.gaps_mm) gap *= scale;
