@@ -21,9 +21,10 @@ struct PhotographQuality {
 };
 
 /// Looks at tiles of 12 stripe periods, inside the mask, along lines across the stripes: the periodogram (Hann) of the
-/// luminance (of the colour) over its local mean. A second peak that is no harmonic and no side of the stripes' own peak, with at least
-/// 4 % of its power, is a second pattern: striped or checked cloth, a screen, a second projector. Nothing is found of
-/// patterns within 15 % of the stripes' own frequency (they beat, and lower the modulation in bands instead).
+/// luminance (of the colour) over its local mean. A second peak that is no harmonic and no side of the stripes' own
+/// peak, with at least 4 % of its power, is a second pattern: striped or checked cloth, a screen, a second projector.
+/// Nothing is found of patterns within 15 % of the stripes' own frequency (they beat, and lower the modulation in bands
+/// instead).
 PhotographQuality JudgePhotograph(const Photograph& photograph, const PhaseResult& phase);
 
 }  // namespace striae::reconstruct
