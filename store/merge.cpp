@@ -19,7 +19,6 @@ using detail::Database;
 using detail::Guarded;
 using detail::Refuse;
 using detail::RowView;
-using detail::ToValue;
 using detail::Unwrap;
 
 std::string TextAt(const RowView& row) { return row.Text(0); }
@@ -95,6 +94,7 @@ Entities TakeTrails(Database& mine, Database& theirs, const std::map<std::string
             "sequence",
         [&](const RowView& row) {
           std::vector<detail::Value> values;
+          values.reserve(static_cast<std::size_t>(row.size()));
           for (int column = 0; column < row.size(); ++column) values.push_back(row.ValueOf(column));
           mine.Run(insert, values);
           ++report.audit_rows;

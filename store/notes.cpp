@@ -14,7 +14,6 @@ using detail::Database;
 using detail::Guarded;
 using detail::Refuse;
 using detail::RowView;
-using detail::ToValue;
 
 constexpr const char* kNotes =
     "SELECT id, entity, entity_id, kind, date, text, by, at, supersedes FROM note n WHERE in_error = 0 AND NOT EXISTS "
