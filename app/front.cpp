@@ -70,31 +70,6 @@ std::optional<Request> Parse(const std::vector<std::string_view>& words) {
   return whole ? std::optional(request) : std::nullopt;
 }
 
-/// Has the system give memory for two images while the file is decoded, which keeps one thread busy: the first touch of
-/// fresh memory costs as much as what is done with it. Buffers that are given back are handed out again.
-class MemoryAhead {
- public:
-  explicit MemoryAhead(std::size_t pixels) {
-    if (pixels > kMost) return;  // of a file that may not even hold them
-    thread_ = std::thread([pixels] {
-      constexpr std::size_t kPage = 4096 / sizeof(float);
-      for (Buffer<float>& image : std::array<Buffer<float>, 2>{Buffer<float>(pixels), Buffer<float>(pixels)}) {
-        for (std::size_t i = 0; i < image.size(); i += kPage) image[i] = 0;
-      }
-    });
-  }
-  MemoryAhead(const MemoryAhead&) = delete;
-  MemoryAhead& operator=(const MemoryAhead&) = delete;
-  ~MemoryAhead() { Wait(); }
-  void Wait() {
-    if (thread_.joinable()) thread_.join();
-  }
-
- private:
-  static constexpr std::size_t kMost = 25'000'000;  ///< what buffers are kept for
-  std::thread thread_;
-};
-
 struct Decoded {
   Result<Photograph> photograph;
   Sha256 sha256;
@@ -109,16 +84,14 @@ Decoded Decode(const std::vector<std::uint8_t>& bytes) {
   return {std::move(photograph), sha256};
 }
 
-Status Serve(const Request& request, const std::vector<std::uint8_t>& bytes, const ImageHeader& header, double start) {
+Status Serve(const Request& request, const std::vector<std::uint8_t>& bytes, double start) {
   if (Status writable = CheckWritable(request.out); !writable) return writable;
   Sha256 calibration_sha256;
   const auto calibration = ReadCalibration(request.calibration, calibration_sha256);
   if (!calibration) return Fail(calibration.error());
-  MemoryAhead ahead(static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height));
   auto [photograph, photograph_sha256] = Decode(bytes);
   if (!photograph) return Fail(photograph.error(), request.image.string());
   const double decoded = Now();
-  ahead.Wait();
   reconstruct::ReconstructOptions settings;
   settings.distance_mm = request.distance_mm;
   settings.faces = request.faces;
@@ -174,7 +147,7 @@ int Run(int argc, char** argv) {
   if (!bytes) return Hand(words, argv);
   const auto header = ReadImageHeader(*bytes);
   if (!header || header->kind != ImageKind::kJpeg) return Hand(words, argv);
-  const Status served = Serve(*request, *bytes, *header, start);
+  const Status served = Serve(*request, *bytes, start);
   return served ? kExitDone : ReportError(served.error());
 }
 
