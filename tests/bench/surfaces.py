@@ -33,11 +33,11 @@ def must_run(command, environment=None):
     return result
 
 
-def read_points(path):
-    """The vertex element of a binary PLY as a structured array."""
+def read_vertices(path):
+    """The header's lines (without end_header) and the vertex element, a structured array, of a binary PLY."""
     kinds = {"float": "<f4", "uchar": "u1", "ushort": "<u2", "double": "<f8", "int": "<i4", "uint": "<u4"}
     with open(path, "rb") as file:
-        count, properties, in_vertex = 0, [], False
+        header, count, properties, in_vertex = [], 0, [], False
         while (line := file.readline().decode().strip()) != "end_header":
             words = line.split()
             if words[0] == "element":
@@ -45,7 +45,13 @@ def read_points(path):
                 count = int(words[2]) if in_vertex else count
             elif words[0] == "property" and in_vertex:
                 properties.append((words[2], kinds[words[1]]))
-        return np.fromfile(file, np.dtype(properties), count)
+            header.append(line)
+        return header, np.fromfile(file, np.dtype(properties), count)
+
+
+def read_points(path):
+    """The vertex element of a binary PLY as a structured array."""
+    return read_vertices(path)[1]
 
 
 def plain_phase(grey, period_px):

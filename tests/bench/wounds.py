@@ -12,7 +12,7 @@ import sys
 import numpy as np
 
 import wound_bodies as bodies
-from surfaces import must_run, run
+from surfaces import must_run, read_vertices, run
 
 OUTLINE_JITTER_MM = 0.5
 
@@ -69,18 +69,7 @@ def place(points, rng):
 
 def cut_surface(path, outline, target):
     """Keeps the points within 480 pixels (50 mm) of the outline."""
-    kinds = {"float": "<f4", "uchar": "u1", "ushort": "<u2"}
-    with open(path, "rb") as file:
-        header, properties, in_vertex, count = [], [], False, 0
-        while (line := file.readline().decode().strip()) != "end_header":
-            words = line.split()
-            if words[0] == "element":
-                in_vertex = words[1] == "vertex"
-                count = int(words[2]) if in_vertex else count
-            elif words[0] == "property" and in_vertex:
-                properties.append((words[2], kinds[words[1]]))
-            header.append(line)
-        points = np.fromfile(file, np.dtype(properties), count)
+    header, points = read_vertices(path)
     low, high = outline.min(0) - 480, outline.max(0) + 480
     kept = points[(points["col"] > low[0]) & (points["col"] < high[0]) & (points["row"] > low[1]) & (points["row"] < high[1])]
     lines = [f"element vertex {len(kept)}" if line.startswith("element vertex") else line for line in header
