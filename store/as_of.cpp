@@ -1,22 +1,17 @@
 #include "store/as_of.h"
 
 #include <map>
+#include <regex>
 #include <set>
 
 #include "store/detail/audit_hash.h"
-#include "store/detail/impl.h"
+#include "store/detail/merge_rows.h"
 #include "store/detail/schema.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
 
-using detail::Access;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::ToValue;
-using detail::Value;
 using nlohmann::json;
 
 Value ValueOf(const json& value) {
@@ -54,14 +49,10 @@ class Names {
   std::map<std::string, std::set<std::string>> known_;
 };
 
-void Replay(Database& past, Names& names, const AuditRow& row) {
-  if (row.action == "note" || !names.IsTable(row.entity)) return;
+/// A row as it was made. What became of it later, Settle says.
+void Make(Database& past, Names& names, const AuditRow& row) {
+  if (row.action != "create" || !names.IsTable(row.entity)) return;
   const json value = json::parse(row.new_value.value_or("null"));
-  if (row.action == "change") {
-    names.Check(row.entity, row.field);
-    past.Run("UPDATE " + row.entity + " SET " + row.field + " = ? WHERE id = ?", {ValueOf(value), row.entity_id});
-    return;
-  }
   std::string columns, marks;
   std::vector<Value> values;
   for (const auto& [column, cell] : value.items()) {
@@ -75,6 +66,30 @@ void Replay(Database& past, Names& names, const AuditRow& row) {
            values);
 }
 
+/// Every row that was changed, or made at two copies, as the trail until then says it: which of two changes counts is
+/// no matter of their times alone (store/detail/trail.h).
+void Settle(Database& past, Names& names) {
+  const detail::Knowledge knowledge(past);
+  const auto entities = past.Rows(
+      "SELECT entity, entity_id FROM audit WHERE action IN ('create', 'change') GROUP BY entity, entity_id HAVING "
+      "count(*) > 1",
+      [](const RowView& row) { return std::pair(row.Text(0), row.Text(1)); });
+  for (const auto& [table, id] : entities) {
+    if (!names.IsTable(table)) continue;
+    const detail::TrailState state = detail::StateOf(past, table, id, knowledge);
+    if (!state.row.is_object()) continue;
+    std::string sets;
+    std::vector<Value> values;
+    for (const auto& [column, cell] : state.row.items()) {
+      names.Check(table, column);
+      sets += (sets.empty() ? "" : ", ") + column + " = ?";
+      values.push_back(ValueOf(cell));
+    }
+    values.emplace_back(id);
+    past.Run("UPDATE " + table + " SET " + sets + " WHERE id = ?", values);
+  }
+}
+
 void KeepAuditRow(Database& past, const AuditRow& row) {
   past.Run(
       "INSERT INTO audit (" + std::string(detail::kAuditColumns) + ") VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
@@ -83,8 +98,27 @@ void KeepAuditRow(Database& past, const AuditRow& row) {
        ToValue(row.old_value), ToValue(row.new_value), row.reason, ToValue(row.previous_hash), ToValue(row.hash)});
 }
 
+/// Two copies may have given the same name or number before they came together: what stands UNIQUE in the study is only
+/// looked up quickly here.
+void MakeTables(Database& past, Database& now) {
+  static const std::regex of_table(R"(,\s*UNIQUE \([^)]*\))"), of_column(R"( UNIQUE\b)");
+  std::vector<std::string> migrations;
+  for (const std::string& sql : detail::Migrations()) {
+    migrations.push_back(std::regex_replace(std::regex_replace(sql, of_table, ""), of_column, ""));
+  }
+  detail::Migrate(past, migrations);
+  for (const std::string& table : detail::AuditedTables(now)) {
+    int count = 0;
+    for (const detail::UniqueKey& key : detail::UniqueKeysOf(now, table)) {
+      std::string columns;
+      for (const std::string& column : key.columns) columns += (columns.empty() ? "" : ", ") + column;
+      past.Execute("CREATE INDEX past_" + table + std::to_string(++count) + " ON " + table + " (" + columns + ")");
+    }
+  }
+}
+
 void MakeEmpty(Database& past, Database& now) {
-  detail::Migrate(past, detail::Migrations());
+  MakeTables(past, now);
   // What is replayed was allowed when it happened.
   for (const std::string& name : past.Rows("SELECT name FROM sqlite_master WHERE type = 'trigger'",
                                            [](const RowView& row) { return row.Text(0); })) {
@@ -113,11 +147,12 @@ Result<Record> AsOf(Record& record, UtcTime instant) {
         sql,
         [&](const RowView& view) {
           const AuditRow row = detail::ReadAuditRow(view);
-          Replay(past, names, row);
+          Make(past, names, row);
           KeepAuditRow(past, row);
           ++rows;
         },
         instant);
+    Settle(past, names);
     past.Execute("COMMIT; PRAGMA query_only=ON");
     if (rows == 0) Refuse(ErrorCode::kNotFound, "there was no study yet at " + instant.ToString());
     return Access::Make(Record::Impl{now.folder, now.objects, std::move(past)});

@@ -4,21 +4,15 @@
 
 #include <unistd.h>
 
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
 #include "store/detail/disk.h"
-#include "store/detail/impl.h"
+#include "store/detail/words.h"
 #include "store/identity.h"
 
 namespace striae::store {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::Unwrap;
 
 constexpr const char* kDraftName = ".study.db.new";
 

@@ -1,19 +1,27 @@
 // Photographs: the rules for adding one, and where they are.
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/keep.h"
 #include "store/detail/read.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
 
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::ToValue;
 using Kind = CaptureRole::Kind;
+
+/// Consent holds from the day on which it was given; a session of a day before has none, whatever was signed since.
+/// Sessions of the first format do not know their day.
+void RefuseBeforeConsent(Database& database, const Session& session, const Subject& subject) {
+  if (!session.day) return;
+  const auto kind = database.One(
+      "SELECT kind FROM consent WHERE subject_id = ? AND date <= ? ORDER BY number DESC LIMIT 1",
+      [](const RowView& row) { return row.Text(0); }, subject.id, *session.day);
+  if (kind == "given") return;
+  Refuse(ErrorCode::kRecordRefused, "subject " + subject.pseudonym + " had no consent on " + session.day->ToString() +
+                                        ", the day of session " + session.id.ToString() + " (given " +
+                                        subject.consent_given->ToString() +
+                                        "); no photograph of that day is taken or imported");
+}
 
 void RefuseUnlessAllowed(Database& database, const SessionId& id) {
   const Session session = detail::GetSession(database, id);
@@ -28,6 +36,7 @@ void RefuseUnlessAllowed(Database& database, const SessionId& id) {
                                           " has no consent in the record; enter it with 'striae consent " +
                                           subject.pseudonym + " --given DATE', or do not photograph");
   }
+  RefuseBeforeConsent(database, session, subject);
   if (database.Count("SELECT count(*) FROM locked_session WHERE id = ?", id) != 0) {
     Refuse(ErrorCode::kRecordRefused,
            "session " + id.ToString() + " is locked: nothing is added; 'striae lock list' names the lock");

@@ -1,18 +1,11 @@
 // Files made from a capture, each with what it was made from and how.
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
 #include "store/detail/compress.h"
-#include "store/detail/impl.h"
 #include "store/detail/keep.h"
 #include "store/detail/read.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
-
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::ToValue;
 
 Result<Derived> Record::AddDerived(const Derived& derived, std::span<const std::uint8_t> bytes, const Stamp& stamp) {
   return Guarded([&] {

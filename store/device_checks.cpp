@@ -2,21 +2,12 @@
 
 #include <algorithm>
 
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::ToValue;
 
 constexpr const char* kChecks =
     "SELECT id, device_id, kind, checked_from, checked_until, passed, evidence, result, by, at FROM device_check "

@@ -19,7 +19,7 @@ namespace striae::store {
 
 using DeviceCheckId = Id<struct DeviceCheckTag>;
 
-struct DeviceCheck {
+struct DeviceCheck {  // NOLINT(bugprone-exception-escape): nlohmann's own noexcept move
   DeviceCheckId id;
   DeviceId device;
   std::string kind;     ///< "plane", "ball", "distance"

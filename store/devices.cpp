@@ -1,17 +1,10 @@
 // Devices and the calibrations in force for them.
 #include "core/calibration.h"
-#include "store/detail/change.h"
-#include "store/detail/impl.h"
 #include "store/detail/keep.h"
 #include "store/detail/read.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
-
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::ToValue;
 
 Status Record::AddDevice(const Device& device, const Stamp& stamp) {
   return Guarded([&] {

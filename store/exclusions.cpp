@@ -1,20 +1,11 @@
 // Captures and quantities that do not count, and why.
 #include "store/annotations.h"
-#include "store/detail/change.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/detail/require.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::ToValue;
 
 constexpr const char* kExclusions = "SELECT id, capture_id, analysis, name, reason, by, at FROM exclusion_now";
 

@@ -1,17 +1,12 @@
 // From what a person types to the entity that it names.
 #include <algorithm>
 
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/detail/schema.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
 
 constexpr std::size_t kShortestPrefix = 8;  // 32 bits: two of 10,000 captures share it once in a hundred studies
 

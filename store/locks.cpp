@@ -1,22 +1,13 @@
 // Locks: the triggers that keep them are in migration 005.
 #include "store/locks.h"
 
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/require.h"
 #include "store/detail/scope.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::ToValue;
 
 constexpr const char* kLocks = "SELECT id, entity, entity_id, reason, by, at FROM lock_now";
 

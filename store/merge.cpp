@@ -6,20 +6,14 @@
 
 #include "store/detail/audit_hash.h"
 #include "store/detail/check.h"
-#include "store/detail/impl.h"
 #include "store/detail/merge_rows.h"
 #include "store/detail/schema.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
 
 using detail::AuditedTables;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::Unwrap;
 
 std::string TextAt(const RowView& row) { return row.Text(0); }
 

@@ -1,19 +1,11 @@
 // Notes and deviations, about anything in the record.
 #include "store/annotations.h"
-#include "store/detail/change.h"
-#include "store/detail/impl.h"
 #include "store/detail/require.h"
 #include "store/detail/strike.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
 
 constexpr const char* kNotes =
     "SELECT id, entity, entity_id, kind, date, text, by, at, supersedes FROM note n WHERE in_error = 0 AND NOT EXISTS "

@@ -1,18 +1,12 @@
 // What processing came to: numbers or the reason for none. Nothing is changed afterwards; a newer outcome supersedes.
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
 
-using detail::Change;
 using detail::Columns;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::ToValue;
 
 std::optional<Outcome> InForce(Database& database, const CaptureId& capture, const std::string& analysis) {
   return database.One(std::string(detail::kOutcomeColumns) +

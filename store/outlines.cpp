@@ -1,17 +1,10 @@
 // Wound outlines as they were drawn: append-only, the newest counts.
-#include "store/detail/change.h"
-#include "store/detail/impl.h"
 #include "store/detail/keep.h"
 #include "store/detail/read.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::ToValue;
 
 void RefuseUnlessOn(const Capture& capture, const Outline& outline) {
   if (outline.polygon_px.size() < 3) {

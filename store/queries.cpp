@@ -2,22 +2,13 @@
 #include <array>
 
 #include "store/annotations.h"
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/detail/require.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::ToValue;
 
 constexpr const char* kQueries = "SELECT id, entity, entity_id, text, by, at, state FROM data_query_now";
 

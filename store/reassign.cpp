@@ -2,22 +2,14 @@
 
 #include <algorithm>
 
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/detail/require.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
 
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::ToValue;
 using Kind = CaptureRole::Kind;
 
 /// One move in one transaction.
@@ -100,7 +92,7 @@ class Mover {
   std::string Write(const Record::Found& moved, const Session& from, const Session& to, const std::string& from_id,
                     const std::string& to_id) {
     const auto earlier = database_.Count("SELECT count(*) FROM reassignment WHERE entity_id = ?", moved.id);
-    const std::string id =
+    std::string id =
         detail::UuidFrom({"reassignment", moved.id, from_id, to_id, std::to_string(earlier), stamp_.now.ToString()})
             .ToString();
     change_.Insert("reassignment",

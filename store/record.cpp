@@ -6,20 +6,15 @@
 
 #include <unistd.h>
 
-#include "store/detail/change.h"
-#include "store/detail/impl.h"
+#include "store/detail/keep.h"
 #include "store/detail/schema.h"
+#include "store/detail/words.h"
 #include "store/pseudonym.h"
 
 namespace striae::store {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::Change;
-using detail::Database;
-using detail::Refuse;
-using detail::ToValue;
-using detail::Value;
 
 constexpr const char* kDatabaseName = "study.db";
 constexpr const char* kNewDatabaseName = ".study.db.new";  // until the first transaction is complete
@@ -62,10 +57,7 @@ void WriteFirstRows(const fs::path& file, const Study& study, const Site& site, 
                           {"coordinating_centre", ToValue(study.coordinating_centre)},
                           {"subject_pattern", study.subject_pattern.empty() ? Value{} : ToValue(study.subject_pattern)},
                           {"check_digit", study.check_digit.empty() ? Value{} : ToValue(study.check_digit)}});
-  change.Insert("site", {{"id", ToValue(site.id)},
-                         {"code", ToValue(site.code)},
-                         {"name", ToValue(site.name)},
-                         {"time_zone", ToValue(site.time_zone)}});
+  detail::InsertSite(change, site);
   change.Commit();
   database.Execute("PRAGMA journal_mode=WAL");  // stays with the file
 }

@@ -6,20 +6,15 @@
 #include <unistd.h>
 
 #include "store/check.h"
-#include "store/detail/change.h"
 #include "store/detail/check.h"
 #include "store/detail/codec.h"
 #include "store/detail/disk.h"
-#include "store/detail/impl.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::Change;
-using detail::Guarded;
-using detail::RowView;
-using detail::Unwrap;
 
 class Repairer {
  public:

@@ -1,18 +1,13 @@
 #include "store/results.h"
 
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
+#include "store/detail/words.h"
 #include "store/json.h"
 
 namespace striae::store {
 namespace {
 
-using detail::Access;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
 using nlohmann::json;
 
 // The outcomes in their order first, then each one's measurements: so nothing large is sorted.

@@ -1,18 +1,11 @@
 // Sessions: one subject before the camera, at one visit.
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/detail/require.h"
 #include "store/detail/strike.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
-
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::ToValue;
 
 Result<Session> Record::OpenSession(Session session, std::string_view visit_name, const VisitId& new_visit,
                                     const Stamp& stamp, const std::string& deviation) {

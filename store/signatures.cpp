@@ -1,20 +1,13 @@
 // Signatures over content: they break when it changes.
 #include <map>
 
-#include "store/detail/change.h"
-#include "store/detail/impl.h"
 #include "store/detail/scope.h"
+#include "store/detail/words.h"
 #include "store/locks.h"
 
 namespace striae::store {
 namespace {
 
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::RowView;
-using detail::ToValue;
 using State = Signature::State;
 
 Signature ReadSignature(const RowView& row) {
@@ -65,14 +58,14 @@ Result<Signature> Sign(Record& record, const SignatureId& id, const Record::Foun
     Stamp signed_stamp = stamp;
     signed_stamp.user = by.user().name;
     Change change(database, signed_stamp);
-    const Signature s{id,
-                      target,
-                      meaning,
-                      by.user().full_name,
-                      std::string(ToString(by.user().role)),
-                      stamp.now,
-                      detail::ContentHash(database, target),
-                      State::kValid};
+    Signature s{id,
+                target,
+                meaning,
+                by.user().full_name,
+                std::string(ToString(by.user().role)),
+                stamp.now,
+                detail::ContentHash(database, target),
+                State::kValid};
     change.Insert("signature", {{"id", ToValue(id)},
                                 {"entity", ToValue(target.entity)},
                                 {"entity_id", ToValue(target.id)},

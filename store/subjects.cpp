@@ -1,18 +1,11 @@
 // Subjects, their consent and their visits.
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
+#include "store/detail/words.h"
 #include "store/pseudonym.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::ToValue;
 
 constexpr std::size_t kLongestPseudonym = 32;
 

@@ -1,21 +1,12 @@
 // Treatments of a subject, with their dates.
 #include "store/annotations.h"
-#include "store/detail/change.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/detail/require.h"
 #include "store/detail/strike.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::ToValue;
 
 constexpr const char* kTreatments =
     "SELECT id, subject_id, date, text, by, at, supersedes FROM treatment t WHERE in_error = 0 AND NOT EXISTS (SELECT "

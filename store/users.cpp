@@ -3,23 +3,14 @@
 #include <algorithm>
 #include <array>
 
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/passphrase.h"
 #include "store/detail/read.h"
 #include "store/detail/require.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
-
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
-using detail::ToValue;
 
 constexpr std::array kRoles = {Role::kCoordinator, Role::kClinician, Role::kInvestigator, Role::kMonitor,
                                Role::kAdministrator};

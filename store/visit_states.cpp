@@ -2,18 +2,13 @@
 #include <algorithm>
 #include <map>
 
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
+#include "store/detail/words.h"
 #include "store/visits.h"
 
 namespace striae::store {
 namespace {
 
-using detail::Access;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
-using detail::RowView;
 using State = VisitState::State;
 
 /// Of one subject: the first day of each visit that was held, and the arm.

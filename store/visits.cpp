@@ -1,22 +1,14 @@
 #include "store/visits.h"
 
-#include "store/detail/change.h"
 #include "store/detail/codec.h"
-#include "store/detail/impl.h"
 #include "store/detail/read.h"
 #include "store/detail/require.h"
+#include "store/detail/words.h"
 
 namespace striae::store {
 namespace {
 
-using detail::Access;
-using detail::Change;
-using detail::Database;
-using detail::Guarded;
-using detail::Refuse;
 using detail::RequireReason;
-using detail::RowView;
-using detail::ToValue;
 
 constexpr const char* kArms = "SELECT id, name, title FROM arm";
 constexpr const char* kPlan = "SELECT id, name, arm_id, day, window_from, window_to FROM planned_visit_now";

@@ -9,4 +9,11 @@ void InsertObject(Change& change, Database& database, const Sha256& sha256, std:
                 {{"id", ToValue(sha256)}, {"size_bytes", ToValue(size_bytes)}, {"kept_at", ToValue(stamp.now)}});
 }
 
+void InsertSite(Change& change, const Site& site) {
+  change.Insert("site", {{"id", ToValue(site.id)},
+                         {"code", ToValue(site.code)},
+                         {"name", ToValue(site.name)},
+                         {"time_zone", ToValue(site.time_zone)}});
+}
+
 }  // namespace striae::store::detail

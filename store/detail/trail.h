@@ -37,7 +37,7 @@ class Knowledge {
 };
 
 /// The audit rows about one entity that make its state.
-struct Step {
+struct Step {  // NOLINT(bugprone-exception-escape): nlohmann's own noexcept move
   Position position;
   std::string utc, action, field;
   nlohmann::json value;  ///< discarded when the text is no JSON
@@ -52,7 +52,7 @@ struct Clash {
   std::vector<Step> sides;  ///< oldest first; the last one counts
 };
 
-struct TrailState {
+struct TrailState {    // NOLINT(bugprone-exception-escape)
   nlohmann::json row;  ///< an object; null when there is no "create"
   Step created;        ///< the oldest, where two copies made the same row
   std::vector<Clash> clashes;

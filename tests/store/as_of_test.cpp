@@ -4,6 +4,7 @@
 #include "store/annotations.h"
 #include "store/reassign.h"
 #include "tests/store/signed_in.h"
+#include "tests/store/sites.h"
 
 namespace striae::testing {
 namespace {
@@ -69,6 +70,63 @@ TEST(AsOf, IsNeverWrittenTo) {
 TEST(AsOf, BeforeTheStudyThereIsNothing) {
   SmallStudy study;
   EXPECT_THAT(store::AsOf(study.record(), UtcTime{0}), FailsWith(ErrorCode::kNotFound, "no study yet"));
+}
+
+/// Both copies gave the same names and numbers; what each knew before they came together must not get in the way.
+TEST(AsOf, WorksOnCopiesThatCameTogetherForEveryTimeBetween) {
+  Sites sites;
+  std::vector<UtcTime> times;
+  {
+    auto a = sites.Open("a"), b = sites.Open("b");
+    times.push_back(NextStamp().now);
+    for (store::Record* copy : {&a, &b}) {
+      Enrol(*copy, "S002");
+      times.push_back(NextStamp().now);
+      ASSERT_THAT(copy->AddCapture(SmallStudy::Photograph(sites.session_), Bytes("the card"), NextStamp()), IsOk());
+      ASSERT_THAT(
+          copy->AddReport(CountedId<ReportId>(), sites.capture_.id, WoundReport(sites.capture_, 3.6), NextStamp()),
+          IsOk());
+    }
+  }
+  sites.Merge("a", "b");
+  auto merged = sites.Open("a");
+  times.push_back(NextStamp().now);
+  ASSERT_THAT(merged.SetRole(sites.capture_.id, *CaptureRole::Parse("wound:W2"), "seen again", NextStamp()), IsOk());
+  for (const UtcTime& time : times) {
+    auto past = store::AsOf(merged, time);
+    ASSERT_THAT(past, IsOk()) << time.ToString();
+    EXPECT_THAT(past->Results(), IsOk());
+    EXPECT_EQ(past->CaptureById(sites.capture_.id)->role.ToString(), "unassigned");
+  }
+  EXPECT_EQ(store::AsOf(merged, times.front())->Subjects()->size(), 1U);
+  auto before = store::AsOf(merged, times.back());
+  EXPECT_EQ(before->Subjects()->size(), 3U);
+  EXPECT_EQ(before->Results()->size(), merged.Results()->size());
+  auto now = store::AsOf(merged, NextStamp().now);
+  for (const std::string& id : {sites.capture_.id.ToString(), sites.session_.id.ToString(), std::string("S002")}) {
+    EXPECT_EQ(*now->Describe(id), *merged.Describe(id)) << id;
+  }
+}
+
+/// The clock of one copy is an hour ahead; its change was known to who changed it back.
+TEST(AsOf, FollowsWhoKnewWhatAndNotTheClocks) {
+  Sites sites;
+  const auto role = [](const char* text) { return *CaptureRole::Parse(text); };
+  {
+    auto b = sites.Open("b");
+    store::Stamp ahead = NextStamp();
+    ahead.now.unix_ms += 3'600'000;
+    ASSERT_THAT(b.SetRole(sites.capture_.id, role("wound:W2"), "seen again", ahead), IsOk());
+  }
+  sites.Merge("a", "b");
+  auto a = sites.Open("a");
+  ASSERT_THAT(a.SetRole(sites.capture_.id, role("wound:W1"), "it is W1", NextStamp()), IsOk());
+  ASSERT_EQ(a.CaptureById(sites.capture_.id)->role.ToString(), "wound:W1");
+  UtcTime later = NextStamp().now;
+  later.unix_ms += 7'200'000;
+  auto past = store::AsOf(a, later);
+  ASSERT_THAT(past, IsOk());
+  EXPECT_EQ(past->CaptureById(sites.capture_.id)->role.ToString(), "wound:W1");
 }
 
 }  // namespace

@@ -28,6 +28,29 @@ TEST(Captures, StopWhenConsentIsWithdrawnAndStayReadable) {
   EXPECT_THAT(study->objects().Get(before.sha256), IsOk());
 }
 
+/// Consent holds on the days between its entries, however late the photographs of a day are imported.
+TEST(Captures, AreOfDaysWithConsentOnly) {
+  SmallStudy study;
+  const Subject subject = study.EnrolWithConsent("S001");  // 2026-05-01
+  const auto on = [&](int day) {
+    Session session = study.Open(subject);
+    session.id = CountedId<SessionId>();
+    session.day = Date{2026, day < 30 ? 5 : 4, day};
+    return *study->OpenSession(session, "V1", CountedId<VisitId>(), NextStamp());
+  };
+  const auto taken = [&](const Session& session) {
+    return study->AddCapture(SmallStudy::Photograph(session), Bytes("photo of " + session.day->ToString()),
+                             NextStamp());
+  };
+  EXPECT_THAT(taken(on(30)), FailsWith(ErrorCode::kRecordRefused, "had no consent on 2026-04-30"));
+  EXPECT_THAT(taken(on(1)), IsOk()) << "the day itself counts";
+  ASSERT_THAT(study->WithdrawConsent(subject.id, {2026, 5, 9}, "", NextStamp()), IsOk());
+  ASSERT_THAT(study->GiveConsent(subject.id, {2026, 5, 20}, NextStamp()), IsOk());
+  EXPECT_THAT(taken(on(8)), IsOk());
+  EXPECT_THAT(taken(on(12)), FailsWith(ErrorCode::kRecordRefused, "had no consent on 2026-05-12"));
+  EXPECT_THAT(taken(on(21)), IsOk());
+}
+
 TEST(Captures, NeedAnOpenSessionOfThisStudy) {
   SmallStudy study;
   Session session = study.Open(study.EnrolWithConsent("S001"));

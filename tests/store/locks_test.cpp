@@ -83,6 +83,12 @@ TEST_F(Locked, EndsWithAReasonByARoleThatMayAndVoidsSignatures) {
   ASSERT_THAT(store::Unlock(study_.record(), CountedId<store::UnlockId>(), lock, "wrong date", by_, NextStamp()),
               IsOk());
   EXPECT_EQ(StateOf(Session()), State::kVoided);
+  const auto told = [&](const std::string& of, const char* what) {
+    const auto rows = *study_->History(of);
+    return std::count_if(rows.begin(), rows.end(), [&](const store::AuditRow& row) { return row.entity == what; });
+  };
+  EXPECT_EQ(told(subject_.id.ToString(), "unlock"), 1) << "the history of what was locked tells of its end";
+  EXPECT_EQ(told(Session().id, "void_signature"), 1);
   EXPECT_THAT(study_->CloseSession(capture_.session, NextStamp()), IsOk());
   EXPECT_EQ(study_->History(lock.ToString())->back().stamp.user, "anna") << "who signed in, not who owns the machine";
   EXPECT_TRUE(study_->Check()->Passed());

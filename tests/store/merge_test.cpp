@@ -138,10 +138,12 @@ TEST(Merge, TakesAnOlderCopyWithoutChangingIt) {
     Enrol(b, "S003");
     ASSERT_THAT(b.AddCapture(SmallStudy::Photograph(sites.session_), Bytes("taken at b"), NextStamp()), IsOk());
   }
-  ASSERT_EQ(store::detail::Migrations().size(), 8U)
+  ASSERT_EQ(store::detail::Migrations().size(), 9U)
       << "there is a newer format: take back all after 7 in the next line";
   ASSERT_EQ(RawSql(sites.At("b") / "study.db",
-                   "DROP INDEX audit_by_entity; DROP INDEX session_visit; DROP INDEX capture_role; PRAGMA "
+                   "DROP TRIGGER site_locked; DROP TRIGGER arm_locked; DROP TRIGGER device_locked; DROP TRIGGER "
+                   "calibration_locked; DROP TRIGGER device_check_locked; DROP INDEX audit_by_entity; DROP INDEX "
+                   "session_visit; DROP INDEX capture_role; PRAGMA "
                    "user_version=7; PRAGMA wal_checkpoint(TRUNCATE)"),
             "");
   const auto before = FilesOf(sites.At("b"));
