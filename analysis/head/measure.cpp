@@ -21,6 +21,7 @@ using detail::Patch;
 
 constexpr double kLargestNeckMoveMm = 110;  // protraction or side shift of a neck; one stripe in depth is 135 mm
 constexpr double kLeastVisible = 0.4;
+constexpr double kHoldPerResidual = 5;  // a ball's noise resists by 2 to 3 times the residual, faces by 13 and more
 constexpr double kRivalRatio = 1.1, kRivalMargin = 0.01;  // losses of the same basin differ by less than a hundredth
 
 Status Check(const Options& options) {
@@ -92,17 +93,28 @@ Status Judge(const Fit& fit, const std::string& part, const Options& options) {
         "face and chest in the light");
   }
   const double hold = detail::Observability_mm(fit.pairs);
-  if (hold < options.least_observability_mm) {
+  const double needed = std::max(options.least_observability_mm, kHoldPerResidual * fit.residual_mm);
+  if (hold < needed) {
     return refuse("is too smooth to fix its rotation (" + Number(hold, "%.1f mm") +
-                  " per rad about its weakest axis, " + Number(options.least_observability_mm, "%.1f") +
+                  " per rad about its weakest axis, " + Number(needed, "%.1f") +
                   " needed): show nose and brow, or bare the chest");
   }
   return {};
 }
 
+FittedPart PartOf(const Fit& fit) {
+  FittedPart part;
+  part.pose_from_neutral = fit.target_from_patch;
+  for (const detail::Pair& pair : fit.pairs) {
+    part.point_in_pose.push_back(pair.moved.cast<float>());
+    part.residual_mm.push_back(static_cast<float>(pair.ToPlane()));
+  }
+  return part;
+}
+
 }  // namespace
 
-Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, const Options& options) {
+Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, const Options& options, HeadFits* fits) {
   if (auto checked = Check(options); !checked) return Fail(checked.error());
   const Eigen::Matrix3d subject_from_camera = SubjectFromCamera(options.up_in_camera);
   const auto from = Prepare(neutral, options.spacing_mm, "neutral");
@@ -137,6 +149,7 @@ Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, cons
           .toRotationMatrix();
   const auto sd = detail::Uncertainties(head, torso, subject_from_camera, options);
   if (!sd) return Fail(ErrorCode::kMeasurementRefused, "the skin in common is too small to state an uncertainty");
+  if (fits != nullptr) *fits = {PartOf(head), PartOf(torso), parts->neck_in_camera, subject_from_camera};
   Regions used = options.regions;
   if (used.head_px.empty()) used.head_px = detail::HullOf(from->first, parts->head);
   if (used.torso_px.empty()) used.torso_px = detail::HullOf(from->first, parts->torso);

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "analysis/head/regions.h"
 #include "core/measurement.h"
@@ -27,8 +29,9 @@ struct Options {
   /// Largest root mean square distance (point to plane) of the counterparts, mm.
   double largest_residual_mm = 1.2;
   /// Smallest resistance of a patch against being turned: root mean square shift along the normals for a turn of
-  /// 1 rad about the weakest axis, mm. Zero for a sphere.
-  double least_observability_mm = 5.0;
+  /// 1 rad about the weakest axis, mm. Zero for a sphere, whose noise alone resists by twice or three times the
+  /// residual: five times are asked for besides.
+  double least_observability_mm = 2.5;
   /// Standard uncertainty of the camera's axes as the subject's axes, about each axis.
   double axes_sd_deg = 2.0;
   /// Part of every angle's uncertainty that resampling cannot see: what is wrong all over a patch (expression, a
@@ -38,6 +41,20 @@ struct Options {
   std::uint64_t seed = 1;
 };
 
+/// A part of the neutral capture laid onto the other one.
+struct FittedPart {
+  Eigen::Isometry3d pose_from_neutral = Eigen::Isometry3d::Identity();
+  std::vector<Eigen::Vector3f> point_in_pose;  ///< the patch after the motion, where it has a counterpart; mm
+  std::vector<float> residual_mm;              ///< along the normal, positive towards the camera; one per point
+};
+
+/// What the fits came to, for pictures.
+struct HeadFits {
+  FittedPart head, torso;
+  Eigen::Vector3d neck_in_camera = Eigen::Vector3d::Zero();  ///< neutral capture, about the middle of the neck
+  Eigen::Matrix3d subject_from_camera = Eigen::Matrix3d::Identity();
+};
+
 /// Both surfaces in mm in their own camera's frame, from the same device or not; vertices with or without sensor grid.
 /// Measurements: rotation, flexion, tilt, total_angle (deg); details: rotation_matrix (3x3 rows, neutral camera
 /// frame, takes a head vector of the neutral pose to the new pose), axes_source, sequence, residual_mm, overlap,
@@ -45,7 +62,8 @@ struct Options {
 /// the axes' part), and the regions in the neutral capture's pixels with their origin (found or drawn).
 /// kMeasurementRefused when no head or torso is found, a patch does not fit or slides freely, or the head moved too far
 /// against the torso to be the same body. Beyond a tilt of 80 deg the angles are flagged.
-/// kUsage for options that cannot be meant. Same result for any number of threads.
-Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, const Options& options = {});
+/// kUsage for options that cannot be meant. `fits` is filled where it is given and the measurement succeeds. Same result for any number of threads.
+Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, const Options& options = {},
+                               HeadFits* fits = nullptr);
 
 }  // namespace striae::head
