@@ -12,6 +12,7 @@ constexpr double kLeastCoverage = 0.6, kGoodCoverage = 0.9;
 constexpr double kMostEmptySectors = 0.25;
 constexpr double kMostSteep = 0.1, kMostOutliers = 0.3, kManyOutliers = 0.1;
 constexpr double kTrendT = 3;
+constexpr double kFades = 0.7;  // of the step beside the line that is left further out where it is swelling
 constexpr double kLeastSwelling_mm = 0.1, kSwellingStep_mm = 0.05;
 
 /// The same wound in small cells near it and in large ones far out.
@@ -94,12 +95,20 @@ Result<Choice> ChooseRing(const Scenes& scenes, const Bed& bed, double width_mm,
   std::vector<double> gaps = options.gaps_mm;
   if (swelling.ends_mm > 0) gaps = {options.gaps_mm.front(), swelling.ends_mm, swelling.ends_mm + 2};
   std::size_t at = 0;
+  const Attempt beside = choice.chosen;
   while (!choice.settled && ++at < gaps.size()) {
     if (gaps[at] <= choice.first_gap_mm) continue;
     auto attempt = Try(scenes, gaps[at], width_mm);
-    if (!attempt) break;
+    // Skin further out that has turned away says less about the wound's place than uneven skin beside it.
+    if (!attempt || SteepShare(attempt->ring, attempt->skin, options.max_ring_slope_deg) > kMostSteep) break;
     choice.chosen = *std::move(attempt);
     choice.settled = swelling.ends_mm > 0 || !HasTrend(choice.chosen, options);
+  }
+  // Swelling fades outwards. What does not is the body's own shape, which no quadric is (a heel): the nearest ring then
+  // continues it best.
+  if (!choice.settled && std::abs(choice.chosen.trend.step_mm) > kFades * std::abs(beside.trend.step_mm)) {
+    choice.chosen = beside;
+    at = 0;
   }
   for (std::size_t next = at + 1; next < std::min(at + 3, gaps.size()); ++next) {
     const auto attempt = Try(scenes, gaps[next], width_mm);
@@ -173,6 +182,8 @@ Status CheckRing(const Choice& choice, const Options& options, Flags& flags) {
     flags.inside.push_back("the skin beside the wound is swollen by " + Format("%.1f mm", choice.swelling.height_mm) +
                            ": the ring of healthy skin begins " + Format("%.0f mm out", a.ring.gap_mm) +
                            Format(", where the swelling ends (%.0f mm)", choice.swelling.ends_mm));
+  } else if (!choice.settled && a.ring.gap_mm <= choice.first_gap_mm) {
+    flags.inside.push_back("the skin's shape is no quadric's, so that swelling beside the wound would not be seen");
   } else if (!choice.settled) {
     flags.inside.push_back(Format("the skin is still uneven %.0f mm from the outline (swelling?)", a.ring.gap_mm));
   } else if (a.ring.gap_mm > choice.first_gap_mm) {

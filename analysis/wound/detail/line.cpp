@@ -4,11 +4,14 @@
 #include <cmath>
 #include <vector>
 
+#include "core/outline.h"
+
 namespace striae::wound {
 namespace {
 
 constexpr double kMadToSd = 1.4826;
-constexpr double kCorner = 0.5;  // cosine of the turn beyond which a point is a corner that was meant
+constexpr double kCorner = 0.5;        // cosine of the turn beyond which a point is a corner that was meant
+constexpr double kCurveCorner = 0.26;  // the same for the curve: the jitter of few points turns it by 30 degrees
 
 Polygon GaussianMeans(const Polygon& even, double sd_points) {
   const auto n = static_cast<std::ptrdiff_t>(even.size());
@@ -27,7 +30,48 @@ Polygon GaussianMeans(const Polygon& even, double sd_points) {
   return means;
 }
 
+Polygon WithoutRepeats(const Polygon& drawn) {
+  Polygon distinct;
+  for (const auto& p : drawn) {
+    if (distinct.empty() || (p - distinct.back()).norm() > 1e-9 * (1 + p.norm())) distinct.push_back(p);
+  }
+  while (distinct.size() > 1 && (distinct.front() - distinct.back()).norm() <= 1e-9) distinct.pop_back();
+  return distinct;
+}
+
+bool IsCorner(const Eigen::Vector2d& before, const Eigen::Vector2d& at, const Eigen::Vector2d& after) {
+  const Eigen::Vector2d in = at - before, out = after - at;
+  return in.dot(out) < kCurveCorner * in.norm() * out.norm();
+}
+
 }  // namespace
+
+Polygon ClosedCurve(const Polygon& drawn) {
+  constexpr std::size_t kLeastPoints = 8, kMostPoints = 400;  // the chords of more lose less than 0.01 %
+  const Polygon p = WithoutRepeats(drawn);
+  const std::size_t n = p.size();
+  if (n < kLeastPoints || n > kMostPoints) return drawn;
+  const auto pieces = static_cast<int>(std::clamp<std::size_t>(800 / n, 2, 12));
+  // Per unit of the parameter, whose step is the root of the chord; at a corner each side keeps its own direction.
+  const auto step = [&](std::size_t k) { return std::sqrt((p[(k + 1) % n] - p[k % n]).norm()); };
+  const auto tangent = [&](std::size_t k, std::size_t side) -> Eigen::Vector2d {
+    const auto &a = p[(k + n - 1) % n], &b = p[k % n], &c = p[(k + 1) % n];
+    if (IsCorner(a, b, c)) return (p[(side + 1) % n] - p[side % n]) / step(side);
+    const double before = step(k + n - 1), after = step(k);
+    return (b - a) / before - (c - a) / (before + after) + (c - b) / after;
+  };
+  Polygon curve;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Eigen::Vector2d &from = p[k], &to = p[(k + 1) % n];
+    const Eigen::Vector2d m0 = tangent(k, k) * step(k), m1 = tangent(k + 1, k) * step(k);
+    for (int j = 0; j < pieces; ++j) {
+      const double t = static_cast<double>(j) / pieces, t2 = t * t, t3 = t2 * t;
+      curve.emplace_back((2 * t3 - 3 * t2 + 1) * from + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * to +
+                         (t3 - t2) * m1);
+    }
+  }
+  return SelfCrossing(curve) ? drawn : curve;
+}
 
 LineStudy StudyLine(const Polygon& drawn) {
   LineStudy study;

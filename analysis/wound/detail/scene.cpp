@@ -145,7 +145,8 @@ Result<ScenePlus> BuildScene(const Surface& surface, const Outline& outline, con
   ScenePlus plus;
   Scene& scene = plus.scene;
   scene.patch = *std::move(patch);
-  const Polygon outline_px = Resample(outline.polygon_px, options.perimeter_step_mm / 2 / scene.patch.pixel_mm);
+  const Polygon outline_px =
+      Resample(ClosedCurve(outline.polygon_px), options.perimeter_step_mm / 2 / scene.patch.pixel_mm);
   const std::vector<double> distance = SensorDistances(scene.patch, outline_px);
   auto usable = SortCells(plus, distance, options);
   if (!usable) return Fail(usable.error());
