@@ -61,16 +61,7 @@ class Resolver {
     for (std::size_t r = 0; r < orders_.size(); ++r) {
       if (settled_[r] && orders_[r].warning.empty()) bounds_[r] = {orders_[r].offset, orders_[r].offset};
     }
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const detail::Link& link : links_) {
-        if (!link.lit || !OneSheet(static_cast<std::size_t>(link.from), static_cast<std::size_t>(link.to))) continue;
-        // Nearer is the larger order where shadows fall towards larger orders.
-        Bounds &less = bounds_[static_cast<std::size_t>(away_ > 0 ? link.from : link.to)],
-               &more = bounds_[static_cast<std::size_t>(away_ > 0 ? link.to : link.from)];
-        if (more.least < less.least) more.least = less.least, changed = true;
-        if (less.most > more.most) less.most = more.most, changed = true;
-      }
+    while (Tighten()) {
     }
     for (int r = 0; r < count_; ++r) {
       const auto i = static_cast<std::size_t>(r);
@@ -155,6 +146,44 @@ class Resolver {
           "dark cloth or empty space, the number is wrong";
     }
     return found;
+  }
+
+  /// A part's light may go on into several others, each along too few lines to prove anything: together they do, for
+  /// the weakest of their bounds. Whether any bound changed.
+  bool Tighten() {
+    struct Word {
+      int bound;
+      detail::LitLines lines;
+    };
+    std::vector<std::vector<Word>> at_most(orders_.size()), at_least(orders_.size());
+    for (const detail::Link& link : links_) {
+      const auto from = static_cast<std::size_t>(link.from), to = static_cast<std::size_t>(link.to);
+      if (link.lines.lit + link.lines.unlit == 0 || !OneSheet(from, to)) continue;
+      // Nearer is the larger order where shadows fall towards larger orders.
+      const auto [less, more] = away_ > 0 ? std::pair(from, to) : std::pair(to, from);
+      if (bounds_[more].most != Bounds{}.most) at_most[less].push_back({bounds_[more].most, link.lines});
+      if (bounds_[less].least != Bounds{}.least) at_least[more].push_back({bounds_[less].least, link.lines});
+    }
+    bool changed = false;
+    for (std::size_t r = 0; r < orders_.size(); ++r) {
+      std::stable_sort(at_most[r].begin(), at_most[r].end(),
+                       [](const Word& a, const Word& b) { return a.bound < b.bound; });
+      std::stable_sort(at_least[r].begin(), at_least[r].end(),
+                       [](const Word& a, const Word& b) { return a.bound > b.bound; });
+      detail::LitLines sum;
+      for (const Word& word : at_most[r]) {
+        if (word.bound >= bounds_[r].most) break;
+        sum += word.lines;
+        if (sum.Proven()) bounds_[r].most = word.bound, changed = true;
+      }
+      sum = {};
+      for (const Word& word : at_least[r]) {
+        if (word.bound <= bounds_[r].least) break;
+        sum += word.lines;
+        if (sum.Proven()) bounds_[r].least = word.bound, changed = true;
+      }
+    }
+    return changed;
   }
 
   struct Bounds {

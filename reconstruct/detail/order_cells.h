@@ -12,10 +12,13 @@
 
 namespace striae::reconstruct::detail {
 
-constexpr float kValley = 0.87F;  ///< of the amplitude on either side
-constexpr float kSureNoises = 4;  ///< and by so many noises below it
-constexpr float kSeenNoises = 1;  ///< where noise is larger no bend can be seen, and none is ruled out
-constexpr float kBend = 0.09F;    ///< stripes: second difference over a stripe across, two thirds along
+constexpr float kValley = 0.87F;     ///< of the amplitude on either side
+constexpr float kSureNoises = 4;     ///< and by so many noises below it
+constexpr float kSeenNoises = 1;     ///< where noise is larger no bend can be seen, and none is ruled out
+constexpr float kBend = 0.09F;       ///< stripes: second difference over a stripe across, two thirds along
+constexpr float kSharp = 0.015F;     ///< stripes: second difference over a third of a stripe along
+constexpr float kWeakJump = 0.015F;  ///< the same where it goes on from a sharp bend or a larger jump
+constexpr float kJump = 0.06F;       ///< stripes: between what lies within 0.8 and 1.7 stripes on either side, across
 
 /// The picture in cells of a sixth of a stripe across and a third along the stripes.
 class Grid {
@@ -39,12 +42,17 @@ class Grid {
       for (int col = 0; col < width; ++col) {
         const int x = col * cell_x;
         region(col, row) = r[x + cell_x / 2];
-        order(col, row) = p[x + cell_x / 2] / (2 * std::numbers::pi_v<float>);
+        const int first = x + (cell_x - averaged) / 2;
+        float sum = 0;
+        bool even = true;
+        for (int k = 0; k < averaged; ++k) sum += p[first + k], even = even && r[first + k] == region(col, row);
+        order(col, row) =
+            (even ? sum / static_cast<float>(averaged) : p[x + cell_x / 2]) / (2 * std::numbers::pi_v<float>);
         amplitude(col, row) = std::accumulate(a + x, a + x + averaged, 0.0F) / static_cast<float>(averaged);
       }
     });
     noise = static_cast<float>(phase.noise / std::sqrt(averaged));
-    order_noise = static_cast<float>(phase.noise / (2 * std::numbers::pi));
+    order_noise = static_cast<float>(phase.noise / (2 * std::numbers::pi) / std::sqrt(averaged));
   }
   [[nodiscard]] int Cells(double stripes, double period_px, int cell) const {
     return std::max(1, static_cast<int>(std::lround(stripes * period_px / cell)));
@@ -112,30 +120,107 @@ inline Mask SoundCells(const Grid& grid, int reach_x, int reach_y) {
   return sound;
 }
 
-/// Takes out the cells where the order is bent: the slope changes along the outline of what lies before.
-inline void TakeOutBends(const Grid& grid, int lag_x, int lag_y, Mask& sound) {
-  constexpr float kSecondDifference = 2.45F;  // root of 1 + 4 + 1
+/// Steps between what lies straight on either side, across the stripes: carried on from 0.8 and 1.7 stripes away to the
+/// middle. A bend of even curvature makes none. 0 where it is within the noise or not the largest within half a stripe.
+inline ImageF JumpsAcross(const Grid& grid, int dx, int dy) {
+  constexpr float kNoises = 3.16F * kSureNoises;  // root of 4 + 1 + 4 + 1
+  constexpr int kInside = 4;  // times 0.8 stripes: near the end of a region the window bends the order by itself
+  const int dir_x = dx > 0 ? 1 : 0, dir_y = dy > 0 ? 1 : 0, reach = 3;
+  ImageF jump(grid.width, grid.height, 0.0F), ridge(grid.width, grid.height, 0.0F);
   ParallelLines(grid.height, [&](int row) {
-    std::uint8_t* to = sound.Row(row);
+    if (row < kInside * dy || row + kInside * dy >= grid.height) return;
     const std::int32_t* r = grid.region.Row(row);
-    const float *at = grid.order.Row(row), *a = grid.amplitude.Row(row);
-    const auto judge = [&](int x, float bend) {
-      if (bend > kBend && bend * a[x] > kSureNoises * kSecondDifference * grid.order_noise) to[x] = 0;
-    };
-    for (int x = 0; x < grid.width; ++x) {
-      if (kBend * a[x] < kSeenNoises * kSecondDifference * grid.order_noise) to[x] = 0;
-    }
-    for (int x = lag_x; x + lag_x < grid.width; ++x) {
-      if (r[x] >= 0 && r[x - lag_x] == r[x] && r[x + lag_x] == r[x])
-        judge(x, std::abs(at[x - lag_x] - 2 * at[x] + at[x + lag_x]));
-    }
-    if (row < lag_y || row + lag_y >= grid.height) return;
-    const std::int32_t *ru = grid.region.Row(row - lag_y), *rd = grid.region.Row(row + lag_y);
-    const float *up = grid.order.Row(row - lag_y), *down = grid.order.Row(row + lag_y);
-    for (int x = 0; x < grid.width; ++x) {
-      if (r[x] >= 0 && ru[x] == r[x] && rd[x] == r[x]) judge(x, std::abs(up[x] - 2 * at[x] + down[x]));
+    const float* a = grid.amplitude.Row(row);
+    const auto regions = [&](int k) { return grid.region.Row(row + k * dy) + k * dx; };
+    const auto orders = [&](int k) { return grid.order.Row(row + k * dy) + k * dx; };
+    const std::int32_t *r1 = regions(-2), *r2 = regions(-1), *r3 = regions(1), *r4 = regions(2),
+                       *first = regions(-kInside), *last = regions(kInside);
+    const float *o1 = orders(-2), *o2 = orders(-1), *o3 = orders(1), *o4 = orders(2);
+    float* to = jump.Row(row);
+    for (int x = kInside * dx; x + kInside * dx < grid.width; ++x) {
+      if (first[x] != r[x] || last[x] != r[x]) continue;
+      if (r[x] < 0 || r1[x] != r[x] || r2[x] != r[x] || r3[x] != r[x] || r4[x] != r[x]) continue;
+      const float step = std::abs(2 * o2[x] - o1[x] - 2 * o3[x] + o4[x]);
+      if (step * a[x] > kNoises * grid.order_noise) to[x] = step;
     }
   });
+  ParallelLines(grid.height, [&](int row) {
+    for (int x = 0; x < grid.width; ++x) {
+      const float own = jump(x, row);
+      if (own < kWeakJump) continue;
+      bool largest = true;
+      for (int k = -reach; k <= reach && largest; ++k) {
+        const int nx = x + k * dir_x, ny = row + k * dir_y;
+        largest = !jump.Contains(nx, ny) || jump(nx, ny) <= own;
+      }
+      if (largest) ridge(x, row) = own;
+    }
+  });
+  return ridge;
+}
+
+/// Takes out the cells where the order is bent: the slope changes along the outline of what lies before. Or where it
+/// jumps: over a third of a stripe along the stripes, where the window does not round it, and across them.
+inline void TakeOutBends(const Grid& grid, int lag_x, int lag_y, bool horizontal, Mask& sound) {
+  constexpr float kSecondDifference = 2.45F;  // root of 1 + 4 + 1
+
+  const int across = std::max(1, (horizontal ? lag_y : lag_x) - 1);
+  const ImageF ridge = JumpsAcross(grid, horizontal ? 0 : across, horizontal ? across : 0);
+  Mask sharp(grid.width, grid.height, 0);
+  ParallelLines(grid.height, [&](int row) {
+    std::uint8_t *to = sound.Row(row), *found = sharp.Row(row);
+    const float* step = ridge.Row(row);
+    const auto judge = [&](const std::int32_t* before, const std::int32_t* at, const std::int32_t* after,
+                           const float* ob, const float* o, const float* oa, int from, int end, float most,
+                           std::uint8_t* mark) {
+      const float* a = grid.amplitude.Row(row);
+      for (int x = from; x < end; ++x) {
+        if (at[x] < 0 || before[x] != at[x] || after[x] != at[x]) continue;
+        const float bend = std::abs(ob[x] - 2 * o[x] + oa[x]);
+        if (bend <= most || bend * a[x] <= kSureNoises * kSecondDifference * grid.order_noise) continue;
+        to[x] = 0;
+        if (mark != nullptr) mark[x] = 1;
+      }
+    };
+    const auto along_x = [&](int lag, float most, std::uint8_t* mark) {
+      const std::int32_t* r = grid.region.Row(row);
+      const float* o = grid.order.Row(row);
+      judge(r - lag, r, r + lag, o - lag, o, o + lag, lag, grid.width - lag, most, mark);
+    };
+    const auto along_y = [&](int lag, float most, std::uint8_t* mark) {
+      if (row < lag || row + lag >= grid.height) return;
+      judge(grid.region.Row(row - lag), grid.region.Row(row), grid.region.Row(row + lag), grid.order.Row(row - lag),
+            grid.order.Row(row), grid.order.Row(row + lag), 0, grid.width, most, mark);
+    };
+    const float* a = grid.amplitude.Row(row);
+    for (int x = 0; x < grid.width; ++x) {
+      if (kBend * a[x] < kSeenNoises * kSecondDifference * grid.order_noise) to[x] = 0;
+      if (step[x] > kJump) to[x] = 0, found[x] = 1;
+    }
+    along_x(lag_x, kBend, nullptr);
+    along_y(lag_y, kBend, nullptr);
+    horizontal ? along_x(1, kSharp, found) : along_y(1, kSharp, found);
+  });
+  // Where the outline of a step turns from along to across the stripes it goes on, be it faint there.
+  std::vector<std::pair<int, int>> open;
+  for (int row = 0; row < grid.height; ++row) {
+    for (int x = 0; x < grid.width; ++x) {
+      if (sharp(x, row) != 0) open.emplace_back(x, row);
+    }
+  }
+  constexpr int kNear = 2;
+  while (!open.empty()) {
+    const auto [x, row] = open.back();
+    open.pop_back();
+    for (int ny = std::max(0, row - kNear); ny <= std::min(grid.height - 1, row + kNear); ++ny) {
+      for (int nx = std::max(0, x - kNear); nx <= std::min(grid.width - 1, x + kNear); ++nx) {
+        if (ridge(nx, ny) == 0 || sharp(nx, ny) != 0) continue;
+        sharp(nx, ny) = 1;
+        sound(nx, ny) = 0;
+        open.emplace_back(nx, ny);
+      }
+    }
+  }
 }
 
 /// Cells with no unsound one, and no other region's, within the rectangle around them; beyond the picture is sound.

@@ -15,14 +15,15 @@ namespace {
 constexpr double kDark = 0.25;           ///< of the light of bright stripes on the darker side
 constexpr double kMissing = 0.75;        ///< stripes by which the phase goes on in the dark: half a one is usual
 constexpr std::size_t kFewestLines = 8;  ///< of the grid, a third of a stripe apart
-constexpr double kMostLines = 0.65;      ///< share of them that agree
-constexpr double kFurthest = 3;          ///< stripes between sound cells of two parts that meet
+constexpr double kFurthest = 5;          ///< stripes between sound cells of two parts that meet
 constexpr double kNarrowest = 0.6, kWidest = 8;  ///< shadows, stripes
 constexpr double kMostAlike = 0.6;               ///< share of lines with the same step
 constexpr double kAmbient = 0.003;  ///< of the bright stripes: less is no surface in the shadow, but nothing
 
+constexpr double kSeen = 4;  ///< noises by which a dim stripe stands out
+
 struct Meeting {
-  std::size_t lit = 0, unlit = 0;
+  LitLines lines;
   std::vector<int> steps;
 };
 
@@ -50,6 +51,9 @@ class Reader {
         horizontal_(phase.direction == StripeDirection::kHorizontal) {
     cell_ = (horizontal_ ? grid.cell_y : grid.cell_x) / period_;
     length_ = horizontal_ ? grid.height : grid.width;
+    // The amplitude's noise is that of about a period's pixels (the Hann window's noise bandwidth); Light adds up three
+    // pixels with weights of 4.
+    light_noise_ = 0.86 * std::sqrt(period_) * phase.noise * 4 * std::sqrt(3.0);
   }
 
   Lighting Read() {
@@ -61,7 +65,7 @@ class Reader {
     // A few dark lines among many lit ones are marks on the surface.
     std::erase_if(lighting_.gaps, [&](const Gap& gap) {
       return gap.from != gap.to && std::any_of(lighting_.links.begin(), lighting_.links.end(), [&](const Link& link) {
-               return link.lit && link.from == gap.from && link.to == gap.to;
+               return link.lines.Proven() && link.from == gap.from && link.to == gap.to;
              });
     });
     return std::move(lighting_);
@@ -100,7 +104,7 @@ class Reader {
     const bool lit = dark && dark->Missing() <= 0;
     if (parted) {
       Meeting& meeting = meetings_[{a, b}];
-      ++(lit ? meeting.lit : meeting.unlit);
+      ++(lit ? meeting.lines.lit : meeting.lines.unlit);
     }
     if (dark && !lit && dark->light > kAmbient)
       lighting_.gaps.push_back({a, b, line, from, to, -away_ * dark->Missing()});
@@ -176,6 +180,17 @@ class Reader {
     return phase(near) + (phase(deeper) - phase(near)) * (pixel - near) / (deeper - near);
   }
 
+  /// The order at the end of a dark stretch, carried on straight from beyond where the window mixes what lies on both
+  /// sides of it; `into` is +1 or -1, away from the dark. NaN where that is not of the same sheet.
+  [[nodiscard]] double CleanOrderAt(int line, int pixel, int into) const {
+    const int near = pixel + into * static_cast<int>(0.75 * period_), far = near + into * static_cast<int>(period_);
+    if (!InPicture(near) || !InPicture(far)) return std::numeric_limits<double>::quiet_NaN();
+    if (SheetAt(line, near) < 0 || SheetAt(line, far) != SheetAt(line, near))
+      return std::numeric_limits<double>::quiet_NaN();
+    const double at_near = PhaseAt(line, near), slope = (PhaseAt(line, far) - at_near) / (far - near);
+    return (at_near + slope * (pixel - near)) / (2 * std::numbers::pi);
+  }
+
   struct Dark {
     double orders = 0;   ///< by which the phase goes on across it, less the stripes in it
     double stripes = 0;  ///< its length over the carrier's period
@@ -188,23 +203,25 @@ class Reader {
   /// Bright stripes in a dark stretch: a shaded wall's, or dark cloth's. Their middle is at a whole order; a sliver of
   /// a stripe that a shadow cuts is elsewhere.
   [[nodiscard]] int DimStripes(int line, const Profile& p, int first, int last) const {
-    constexpr double kValley = 0.6, kMiddle = 0.2;
+    constexpr double kValley = 0.6, kMiddle = 0.2, kSlice = 0.3;
     const auto& light = p.light;
+    const double seen = kSeen * light_noise_;
     const int margin = static_cast<int>(period_ / 8);
     int found = 0;
     double least = 1e9, most = 0;  // since the last valley, since the last peak
     bool rising = false;
-    int top = 0;
+    int top = 0, rose = 0;
+    const double narrowest = kSlice * period_;
     for (int i = first + margin; i <= last - margin; ++i) {
       const double v = light[static_cast<std::size_t>(i)];
       if (!rising) {
         least = std::min(least, v);
-        if (least < kValley * v) rising = true, most = v, top = i;
+        if (least < kValley * v && v - least > seen) rising = true, most = v, top = rose = i;
       } else {
         if (v > most) most = v, top = i;
-        if (v >= kValley * most) continue;
+        if (v >= kValley * most || most - v <= seen) continue;
         const double order = OrderAt(line, p.first + top, -1);
-        found += std::abs(order - std::round(order)) < kMiddle ? 1 : 0;
+        found += i - rose >= narrowest && std::abs(order - std::round(order)) < kMiddle ? 1 : 0;
         rising = false;
         least = v;
       }
@@ -230,6 +247,10 @@ class Reader {
         sum += p.light[static_cast<std::size_t>(end)];
       Dark dark;
       dark.orders = OrderAt(line, p.first + end, +1) - OrderAt(line, p.first + i - 1, -1);
+      const double clean = CleanOrderAt(line, p.first + end, +1) - CleanOrderAt(line, p.first + i - 1, -1);
+      if (clean > dark.orders && SheetAt(line, p.first + end + static_cast<int>(0.75 * period_)) ==
+                                     SheetAt(line, p.first + i - 1 - static_cast<int>(0.75 * period_)))
+        dark.orders = clean;
       dark.stripes = (end - i) / period_;
       dark.light = sum / (end - i) / sides;
       if (dark.orders >= kMissing) dark.orders -= DimStripes(line, p, i, end - 1);
@@ -253,15 +274,14 @@ class Reader {
 
   [[nodiscard]] static std::optional<Link> Judge(int from, int to, Meeting& meeting) {
     Link link{from, to};
-    const auto met = static_cast<double>(meeting.lit + meeting.unlit);
-    link.lit = meeting.lit >= kFewestLines && static_cast<double>(meeting.lit) >= kMostLines * met;
+    link.lines = meeting.lines;
     if (meeting.steps.size() >= kFewestLines) {
       link.step = MedianOf(meeting.steps);
       const auto alike = static_cast<double>(std::count(meeting.steps.begin(), meeting.steps.end(), link.step));
       link.alike = alike / static_cast<double>(meeting.steps.size());
       link.shadow = link.alike >= kMostAlike;
     }
-    return link.lit || link.shadow ? std::optional(link) : std::nullopt;
+    return link.lines.lit + link.lines.unlit > 0 || link.shadow ? std::optional(link) : std::nullopt;
   }
 
   const Grid& grid_;
@@ -273,7 +293,8 @@ class Reader {
   int away_;
   double period_;
   bool horizontal_;
-  double cell_ = 0;  ///< stripes
+  double cell_ = 0;         ///< stripes
+  double light_noise_ = 0;  ///< sd of Light
   int length_ = 0;
   std::map<std::pair<std::int32_t, std::int32_t>, Meeting> meetings_;
   Lighting lighting_;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "reconstruct/detail/order_labels.h"
+#include "reconstruct/detail/order_merge.h"
 
 namespace striae::reconstruct::detail {
 namespace {
@@ -13,25 +14,8 @@ namespace {
 constexpr double kNeck = 1.6;          ///< stripes from either side of a neck
 constexpr int kFarthest = 24;          ///< cells from a seed: four stripes across, eight along
 constexpr double kLeastShare = 0.004;  ///< of all points: smaller parts are not split off
-
-/// Which nodes are reached from each one.
-std::vector<std::vector<bool>> Reach(std::size_t count, const std::vector<std::vector<std::size_t>>& next) {
-  std::vector<std::vector<bool>> reached(count);
-  for (std::size_t from = 0; from < count; ++from) {
-    reached[from].assign(count, false);
-    std::vector<std::size_t> open{from};
-    while (!open.empty()) {
-      const std::size_t at = open.back();
-      open.pop_back();
-      for (const std::size_t to : next[at]) {
-        if (reached[from][to]) continue;
-        reached[from][to] = true;
-        open.push_back(to);
-      }
-    }
-  }
-  return reached;
-}
+constexpr double kSliver = 0.4;        ///< stripes from either side of what is no more than a sliver
+constexpr double kLeastRest = 0.0005;  ///< the same, of what hangs on a part by less than a neck
 
 }  // namespace
 
@@ -46,7 +30,7 @@ Parting::Parting(const PhaseResult& phase, const ImageRgb& picture, int away)
   sound_ = SoundCells(grid_, grid_.Cells(horizontal_ ? 1.0 : 1.5, period, grid_.cell_x),
                       grid_.Cells(horizontal_ ? 1.5 : 1.0, period, grid_.cell_y));
   TakeOutBends(grid_, grid_.Cells(horizontal_ ? 0.66 : 1.0, period, grid_.cell_x),
-               grid_.Cells(horizontal_ ? 1.0 : 0.66, period, grid_.cell_y), sound_);
+               grid_.Cells(horizontal_ ? 1.0 : 0.66, period, grid_.cell_y), horizontal_, sound_);
   const Mask eroded =
       Eroded(grid_, sound_, grid_.Cells(kNeck, period, grid_.cell_x), grid_.Cells(kNeck, period, grid_.cell_y));
   Parts parts(grid_, sound_, eroded);
@@ -55,80 +39,42 @@ Parting::Parting(const PhaseResult& phase, const ImageRgb& picture, int away)
       std::count_if(grid_.region.pixels().begin(), grid_.region.pixels().end(), [](std::int32_t r) { return r >= 0; });
   parts.KeepLarge(eroded, kLeastShare * static_cast<double>(points));
   parts.Grow(kFarthest);
-  parts.FillRest();
+  parts.FillRest(
+      Eroded(grid_, sound_, grid_.Cells(kSliver, period, grid_.cell_x), grid_.Cells(kSliver, period, grid_.cell_y)),
+      kLeastRest * static_cast<double>(points));
   lighting_ = ReadLighting(grid_, sound_, parts, phase, picture, away);
   label_ = std::move(parts.part);
   sheet_ = std::move(parts.parent);
   MergeProven();
 }
 
-/// Where each of two parts is shown not to be farther than the other, no step parts them.
+/// Parts that are one get one label; labels are numbered anew from 0 on, without holes, and the photograph's regions
+/// that the grid has no cell of come last.
 void Parting::MergeProven() {
-  // Labels in use, from 0 on; then regions that the grid has no cell of.
-  std::vector<std::int32_t> used(sheet_.size(), kNone), sheet;
+  const auto merged = MergedParts(sheet_, lighting_.links);
+  std::vector<std::int32_t> number(sheet_.size(), kNone), sheet;
   std::vector<bool> seen(static_cast<std::size_t>(regions_), false);
   for (const std::int32_t label : label_.pixels()) {
-    if (label < 0 || used[static_cast<std::size_t>(label)] != kNone) continue;
-    used[static_cast<std::size_t>(label)] = static_cast<std::int32_t>(sheet.size());
-    sheet.push_back(sheet_[static_cast<std::size_t>(label)]);
-    seen[static_cast<std::size_t>(sheet.back())] = true;
+    if (label < 0) continue;
+    const auto part = static_cast<std::size_t>(merged[static_cast<std::size_t>(label)]);
+    if (number[part] != kNone) continue;
+    number[part] = static_cast<std::int32_t>(sheet.size());
+    sheet.push_back(sheet_[part]);
+    seen[static_cast<std::size_t>(sheet_[part])] = true;
   }
   for (std::size_t r = 0; r < seen.size(); ++r) {
     if (!seen[r]) sheet.push_back(static_cast<std::int32_t>(r));
   }
-  const auto is_one_sheet = [&](const Link& link) {
-    return sheet_[static_cast<std::size_t>(link.from)] == sheet_[static_cast<std::size_t>(link.to)];
-  };
-  // Only what is linked within its sheet can be merged.
-  std::map<std::int32_t, std::size_t> node;
-  for (const Link& link : lighting_.links) {
-    if (!is_one_sheet(link)) continue;
-    node.emplace(link.from, node.size());
-    node.emplace(link.to, node.size());
-  }
-  std::vector<std::vector<std::size_t>> next(node.size());
-  for (const Link& link : lighting_.links) {
-    if (!is_one_sheet(link)) continue;
-    const std::size_t a = node[link.from], b = node[link.to];
-    if (link.lit || (link.shadow && link.step == 0)) next[a].push_back(b);
-    if (link.shadow && link.step == 0) next[b].push_back(a);
-  }
-  const auto reached = Reach(node.size(), next);
-  std::vector<std::int32_t> to(sheet.size());
-  std::iota(to.begin(), to.end(), 0);
-  for (const auto& [a, i] : node) {
-    for (const auto& [b, j] : node) {
-      if (!reached[i][j] || !reached[j][i]) continue;
-      std::int32_t &own = to[static_cast<std::size_t>(used[static_cast<std::size_t>(a)])],
-                   &other = to[static_cast<std::size_t>(used[static_cast<std::size_t>(b)])];
-      own = other = std::min(own, other);
-    }
-  }
-  // Numbers without holes.
-  std::vector<std::int32_t> number(sheet.size(), kNone);
-  sheet_.clear();
-  for (std::size_t i = 0; i < sheet.size(); ++i) {
-    auto& own = number[static_cast<std::size_t>(to[i])];
-    if (own == kNone) {
-      own = static_cast<std::int32_t>(sheet_.size());
-      sheet_.push_back(sheet[i]);
-    }
-  }
-  const auto renumber = [&](std::int32_t label) {
-    return number[static_cast<std::size_t>(to[static_cast<std::size_t>(used[static_cast<std::size_t>(label)])])];
+  sheet_ = std::move(sheet);
+  const auto renumber = [&](std::int32_t& label) {
+    label = number[static_cast<std::size_t>(merged[static_cast<std::size_t>(label)])];
   };
   for (std::int32_t& label : label_.pixels()) {
-    if (label >= 0) label = renumber(label);
+    if (label >= 0) renumber(label);
   }
-  for (Link& link : lighting_.links) {
-    link.from = renumber(link.from);
-    link.to = renumber(link.to);
-  }
+  for (Link& link : lighting_.links) renumber(link.from), renumber(link.to);
   std::erase_if(lighting_.links, [](const Link& link) { return link.from == link.to; });
-  for (Gap& gap : lighting_.gaps) {
-    gap.from = renumber(gap.from);
-    gap.to = renumber(gap.to);
-  }
+  for (Gap& gap : lighting_.gaps) renumber(gap.from), renumber(gap.to);
 }
 
 void Parting::Part(PhaseResult& phase) {
@@ -226,7 +172,7 @@ void Parting::GiveSeams(const std::vector<bool>& warned, std::vector<std::int32_
     next.clear();
     const auto take = [&](int x, int y) {
       const std::int32_t own = label_(x, y);
-      if (!silent(own) || (step > 0 && sound_(x, y) != 0)) return;
+      if (!silent(own)) return;
       ForNeighbours(grid_, {x, y}, [&](int nx, int ny) {
         const std::int32_t other = label_(nx, ny);
         if (other < 0 || other == own) return;

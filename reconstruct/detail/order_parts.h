@@ -27,7 +27,7 @@ void ForNeighbours(const Grid& grid, const Cell& at, const Visit& visit) {
 /// Connected parts of the eroded cells, and what they are grown to within their regions.
 class Parts {
  public:
-  Parts(const Grid& grid, const Mask& sound, const Mask& eroded) : grid_(grid), sound_(sound) {
+  Parts(const Grid& grid, Mask& sound, const Mask& eroded) : grid_(grid), sound_(sound) {
     part = Image<std::int32_t>(grid.width, grid.height, kNone);
     for (int row = 0; row < grid.height; ++row) {
       for (int col = 0; col < grid.width; ++col) {
@@ -53,7 +53,7 @@ class Parts {
           const std::int32_t own = part(cell.first, cell.second);
           ForNeighbours(grid_, cell, [&](int x, int y) {
             if (part(x, y) != kNone || grid_.region(x, y) != parent[static_cast<std::size_t>(own)]) return;
-            if (!valleys && sound_(x, y) == 0) return;
+            if ((sound_(x, y) == 0) != valleys) return;
             part(x, y) = own;
             next.emplace_back(x, y);
           });
@@ -80,8 +80,44 @@ class Parts {
     }
   }
 
-  /// Cells that belong to no part become one of their region.
-  void FillRest() {
+  /// What no part has grown to: connected ground with `least` cells or more of `wide` is a part of its own, for what
+  /// parts it from the others is a valley or a neck. Specks and slivers go to the part beside them, and with none
+  /// beside to one part of their region; they are no sound ground: what light says there may be of either side.
+  void FillRest(const Mask& wide, double least) {
+    Mask rest(grid_.width, grid_.height, 0), speck(grid_.width, grid_.height, 0);
+    for (int row = 0; row < grid_.height; ++row) {
+      for (int col = 0; col < grid_.width; ++col)
+        rest(col, row) = grid_.region(col, row) >= 0 && part(col, row) == kNone ? 1 : 0;
+    }
+    for (int row = 0; row < grid_.height; ++row) {
+      for (int col = 0; col < grid_.width; ++col) {
+        if (rest(col, row) == 0 || part(col, row) != kNone || speck(col, row) != 0) continue;
+        const auto cells = Flood(rest, {col, row});
+        const auto wide_cells =
+            std::count_if(cells.begin(), cells.end(), [&](const Cell& c) { return wide(c.first, c.second) != 0; });
+        if (static_cast<double>(wide_cells) >= least) continue;
+        parent.pop_back();
+        for (const auto& [x, y] : cells) part(x, y) = kNone, speck(x, y) = 1, sound_(x, y) = 0;
+      }
+    }
+    std::vector<Cell> now, next;
+    for (int row = 0; row < grid_.height; ++row) {
+      for (int col = 0; col < grid_.width; ++col) {
+        if (part(col, row) != kNone && OnRim({col, row})) now.emplace_back(col, row);
+      }
+    }
+    for (; !now.empty(); now.swap(next)) {
+      next.clear();
+      for (const Cell& cell : now) {
+        const std::int32_t own = part(cell.first, cell.second);
+        ForNeighbours(grid_, cell, [&](int x, int y) {
+          if (speck(x, y) == 0 || part(x, y) != kNone || grid_.region(x, y) != parent[static_cast<std::size_t>(own)])
+            return;
+          part(x, y) = own;
+          next.emplace_back(x, y);
+        });
+      }
+    }
     std::vector<std::int32_t> whole;
     for (int row = 0; row < grid_.height; ++row) {
       for (int col = 0; col < grid_.width; ++col) {
@@ -102,21 +138,21 @@ class Parts {
   std::vector<std::int32_t> parent;  ///< region of each part
 
  private:
-  void Flood(const Mask& eroded, const Cell& first) {
+  std::vector<Cell> Flood(const Mask& eroded, const Cell& first) {
     const auto id = static_cast<std::int32_t>(parent.size());
     const std::int32_t region = grid_.region(first.first, first.second);
     parent.push_back(region);
     std::vector<Cell> open{first};
     part(first.first, first.second) = id;
-    while (!open.empty()) {
-      const Cell cell = open.back();
-      open.pop_back();
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const Cell cell = open[k];
       ForNeighbours(grid_, cell, [&](int x, int y) {
         if (eroded(x, y) == 0 || part(x, y) != kNone || grid_.region(x, y) != region) return;
         part(x, y) = id;
         open.emplace_back(x, y);
       });
     }
+    return open;
   }
   [[nodiscard]] bool OnRim(const Cell& cell) const {
     bool rim = false;
@@ -125,7 +161,7 @@ class Parts {
   }
 
   const Grid& grid_;
-  const Mask& sound_;
+  Mask& sound_;
 };
 
 }  // namespace striae::reconstruct::detail
