@@ -32,12 +32,14 @@ class InZone {
   std::optional<std::string> before_;
 };
 
+constexpr const char* kZones = "/usr/share/zoneinfo";
+
 /// An unknown zone is silently UTC for the C library.
 bool Exists(const std::string& zone) {
   if (zone.empty() || zone == "UTC") return true;
   std::error_code code;
   return zone.find("..") == std::string::npos &&
-         std::filesystem::is_regular_file(std::filesystem::path("/usr/share/zoneinfo") / zone, code);
+         std::filesystem::is_regular_file(std::filesystem::path(kZones) / zone, code);
 }
 
 }  // namespace
@@ -73,6 +75,13 @@ Date DayAt(UtcTime time, const std::string& zone) {
   std::tm local{};
   ::localtime_r(&seconds, &local);
   return {local.tm_year + 1900, local.tm_mon + 1, local.tm_mday};
+}
+
+Status CheckZone(const std::string& zone) {
+  std::error_code code;
+  if (Exists(zone) || !std::filesystem::is_directory(kZones, code)) return {};
+  return Fail(ErrorCode::kUsage, "this system knows no time zone '" + zone.substr(0, 64) +
+                                     "'; give --time-zone as in /usr/share/zoneinfo, such as Europe/Ljubljana");
 }
 
 }  // namespace striae::app

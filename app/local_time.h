@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/result.h"
 #include "core/time.h"
 
 namespace striae::app {
@@ -14,5 +15,8 @@ Result<UtcTime> ParseLocal(const std::string& text, const std::string& zone);
 
 /// The day at the site. An empty or unknown zone is taken as UTC.
 Date DayAt(UtcTime time, const std::string& zone);
+
+/// kUsage for a zone that the system's database does not have; without a database every zone is taken as it is.
+Status CheckZone(const std::string& zone);
 
 }  // namespace striae::app

@@ -10,6 +10,7 @@
 #include "analysis/wound/wound.h"
 #include "app/device_checks.h"
 #include "app/kept_surface.h"
+#include "app/session_label.h"
 #include "app/study.h"
 
 namespace striae::app {
@@ -31,11 +32,19 @@ std::string AnalysisOf(const CaptureRole& role) {
 }
 
 constexpr const char* kDeviceCheck = "device check";
+constexpr const char* kForeignLabel = "label of another session";
+
+/// Why what is measured on a capture is not trusted, beside what the surface itself says.
+struct Doubts {
+  std::optional<store::Doubt> device;
+  std::optional<ForeignLabel> label;
+};
 
 /// Whether the doubts that a result was flagged with are those that there are now.
 bool SameDoubts(const Provenance& provenance, const std::vector<ProvenanceInput>& sources) {
   const auto doubts = [](const std::vector<ProvenanceInput>& inputs) {
-    return std::count_if(inputs.begin(), inputs.end(), [](const ProvenanceInput& i) { return i.name == kDeviceCheck; });
+    return std::count_if(inputs.begin(), inputs.end(),
+                         [](const ProvenanceInput& i) { return i.name == kDeviceCheck || i.name == kForeignLabel; });
   };
   return doubts(provenance.inputs) == doubts(sources);
 }
@@ -78,8 +87,18 @@ class Run {
   Run(Record& record, std::vector<WorkItem> all) : record_(record), all_(std::move(all)) {}
 
   Result<Processed> Process(const WorkItem& item) {
-    Processed processed{Processed::State::kFailed, item.capture, AnalysisOf(item.capture.role), {}};
+    Processed processed{Processed::State::kFailed, item.capture, AnalysisOf(item.capture.role), {}, {}};
     auto sources = SourcesOf(item);
+    Doubts doubts;
+    // First of all, so that a wrong patient is named before anybody draws an outline.
+    auto label = ForeignLabelIn(record_, item);
+    if (!label) return Fail(label.error());
+    doubts.label = *std::move(label);
+    if (doubts.label) {
+      processed.warning = doubts.label->reason;
+      if (const Status noted = NoteDeviation(record_, item, *doubts.label); !noted) return Fail(noted.error());
+      sources.push_back({kForeignLabel, doubts.label->evidence});
+    }
     const WorkItem* neutral = nullptr;
     if (processed.analysis == "wound") {
       if (!item.outline) return Waiting(processed, "no outline yet; add it with: striae outline CAPTURE outline.json");
@@ -92,17 +111,27 @@ class Run {
       sources.push_back({"neutral photograph", neutral->capture.sha256});
     }
     // A neutral pose in doubt puts every pose that is measured against it in doubt.
+    if (neutral != nullptr && !doubts.label) {
+      auto of_neutral = ForeignLabelIn(record_, *neutral);
+      if (!of_neutral) return Fail(of_neutral.error());
+      doubts.label = *std::move(of_neutral);
+      if (doubts.label) {
+        doubts.label->reason = "the neutral photograph: " + doubts.label->reason;
+        sources.push_back({kForeignLabel, doubts.label->evidence});
+      }
+    }
     auto doubt = DoubtAbout(record_, item);
     if (doubt && !*doubt && neutral != nullptr) doubt = DoubtAbout(record_, *neutral);
     if (!doubt) return Fail(doubt.error());
-    if (*doubt) sources.push_back({kDeviceCheck, (*doubt)->evidence});
+    doubts.device = *std::move(doubt);
+    if (doubts.device) sources.push_back({kDeviceCheck, doubts.device->evidence});
     if (const Outcome* known = InForce(item, processed.analysis);
         known && SameSources(known->report.provenance, sources) && SameDoubts(known->report.provenance, sources)) {
       processed.state = known->failure ? Processed::State::kFailed : Processed::State::kUpToDate;
       processed.text = known->failure ? known->failure->Describe() : Summary(known->report);
       return processed;
     }
-    return Measure(item, neutral, sources, *doubt, processed);
+    return Measure(item, neutral, sources, doubts, processed);
   }
 
  private:
@@ -120,7 +149,7 @@ class Run {
   }
 
   Result<Processed> Measure(const WorkItem& item, const WorkItem* neutral, const std::vector<ProvenanceInput>& sources,
-                            const std::optional<store::Doubt>& doubt, Processed processed) {
+                            const Doubts& doubts, Processed processed) {
     auto surface = SurfaceOf(record_, item);
     if (!surface) return Failed(item, sources, surface.error(), processed);
     if (processed.analysis == kSurfaceKind) {
@@ -136,7 +165,8 @@ class Run {
     report->provenance.version = std::string(StriaeVersion());
     report->provenance.inputs = inputs;
     for (const std::string& warning : Warnings(surface->surface)) FlagAll(*report, "the surface: " + warning);
-    if (doubt) Flag(*report, *doubt);
+    if (doubts.label) FlagAll(*report, doubts.label->reason);
+    if (doubts.device) Flag(*report, *doubts.device);
     const auto added = record_.AddReport(NewId<ReportId>(), item.capture.id, *report, NewStamp());
     if (!added) return Fail(added.error());
     processed.state = Processed::State::kMeasured;
@@ -215,9 +245,11 @@ std::string Describe(const Processed& processed) {
 }
 
 nlohmann::json ToJson(const Processed& processed) {
-  return {{"capture", processed.capture.id.ToString()}, {"file", processed.capture.file_name},
-          {"role", processed.capture.role.ToString()},  {"analysis", processed.analysis},
-          {"state", ToString(processed.state)},         {"text", processed.text}};
+  nlohmann::json json = {{"capture", processed.capture.id.ToString()}, {"file", processed.capture.file_name},
+                         {"role", processed.capture.role.ToString()},  {"analysis", processed.analysis},
+                         {"state", ToString(processed.state)},         {"text", processed.text}};
+  if (!processed.warning.empty()) json["warning"] = processed.warning;
+  return json;
 }
 
 }  // namespace striae::app

@@ -27,6 +27,7 @@ struct Processed {
   Capture capture;
   std::string analysis;  ///< "wound", "head", "surface"
   std::string text;      ///< the main numbers, or the reason and what to do
+  std::string warning;   ///< a label that belongs to another session; empty otherwise
 };
 
 /// Called before each capture: how many are done, how many there are, and what comes next.

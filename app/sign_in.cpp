@@ -1,5 +1,7 @@
 #include "app/sign_in.h"
 
+#include <array>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -12,21 +14,38 @@
 namespace striae::app {
 namespace {
 
-/// The terminal without echo as long as this lives.
+termios echoing{};  // the terminal as it was; a signal's handler can reach nothing but what is static
+constexpr std::array kEnding = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+
+void EchoAgainAndEnd(int number) {
+  ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &echoing);
+  ::signal(number, SIG_DFL);
+  ::raise(number);
+}
+
+/// The terminal without echo as long as this lives; a signal that ends the program puts it back.
 class Quiet {
  public:
   Quiet() {
-    ::tcgetattr(STDIN_FILENO, &before_);
-    termios quiet = before_;
+    ::tcgetattr(STDIN_FILENO, &echoing);
+    for (std::size_t i = 0; i < kEnding.size(); ++i) {
+      struct sigaction end {};
+      end.sa_handler = EchoAgainAndEnd;
+      ::sigaction(kEnding[i], &end, &before_[i]);
+    }
+    termios quiet = echoing;
     quiet.c_lflag &= ~static_cast<tcflag_t>(ECHO);
     ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &quiet);
   }
-  ~Quiet() { ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_); }
+  ~Quiet() {
+    ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &echoing);
+    for (std::size_t i = 0; i < kEnding.size(); ++i) ::sigaction(kEnding[i], &before_[i], nullptr);
+  }
   Quiet(const Quiet&) = delete;
   Quiet& operator=(const Quiet&) = delete;
 
  private:
-  termios before_{};
+  std::array<struct sigaction, kEnding.size()> before_{};
 };
 
 void DropLineEnd(std::string& line) {
@@ -62,14 +81,25 @@ Result<std::string> AskPassphrase(const std::filesystem::path& file, const std::
                 "a passphrase is needed and there is no terminal to ask; name a file that holds it with "
                 "--passphrase-file or STRIAE_PASSPHRASE_FILE");
   }
-  std::cerr << prompt << ": " << std::flush;
+  bool typed = false;
   {
-    const Quiet quiet;
-    std::getline(std::cin, line);
+    const Quiet quiet;  // before the prompt: what is typed ahead is not shown either
+    std::cerr << prompt << ": " << std::flush;
+    typed = static_cast<bool>(std::getline(std::cin, line));
   }
   std::cerr << '\n';
+  if (!typed) return Fail(ErrorCode::kUsage, "no passphrase was typed; nothing was changed");
   DropLineEnd(line);
   return line;
+}
+
+Result<std::string> AskNewPassphrase(const std::filesystem::path& file, const std::string& prompt) {
+  auto passphrase = AskPassphrase(file, prompt);
+  if (!passphrase || !file.empty()) return passphrase;
+  const auto again = AskPassphrase({}, "Once more");
+  if (!again) return Fail(again.error());
+  if (*again != *passphrase) return Fail(ErrorCode::kUsage, "the two were not the same; nothing was changed");
+  return passphrase;
 }
 
 Result<store::SignedIn> SignInFor(store::Record& record, const SignInOptions& options, store::Act act) {

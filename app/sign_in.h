@@ -21,8 +21,11 @@ struct SignInOptions {
 void AddSignInOptions(CLI::App& command, SignInOptions& options);
 
 /// The first line of the file, without its end. `prompt` is shown on the terminal where there is no file
-/// (--passphrase-file, else STRIAE_PASSPHRASE_FILE) and the answer is not echoed. kUsage when there is neither.
+/// (--passphrase-file, else STRIAE_PASSPHRASE_FILE) and the answer is not echoed, also when a signal ends the program
+/// meanwhile. kUsage when there is neither, and when the terminal ends (Ctrl-D).
 Result<std::string> AskPassphrase(const std::filesystem::path& file, const std::string& prompt);
+/// One that is to be set: at the terminal it is typed twice; kUsage when the two differ.
+Result<std::string> AskNewPassphrase(const std::filesystem::path& file, const std::string& prompt);
 /// --passphrase-file, else STRIAE_PASSPHRASE_FILE; empty when neither is given.
 std::filesystem::path PassphraseFile(const SignInOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/names.h"
 #include "app/intake.h"
 #include "app/study.h"
 
@@ -16,7 +17,9 @@ tl::unexpected<Error> Usage(const Error& error, const char* option) {
 }  // namespace
 
 void AddTagOptions(CLI::App& command, TagOptions& options) {
-  command.add_option("--session", options.session, "The session's id (striae session list)")->required();
+  command
+      .add_option("--session", options.session, "The session: its id (striae session list) or the code on its label")
+      ->required();
   command.add_option("--as", options.role, "What they show: wound:LABEL, neutral, pose or unassigned")
       ->type_name("ROLE")
       ->capture_default_str();
@@ -39,11 +42,11 @@ Result<Tagged> Tag(const Context& context, const TagOptions& options) {
     if (!parsed) return Usage(parsed.error(), "--range");
     range = *parsed;
   }
-  const auto session = ParseSessionId(options.session);
-  if (!session) return Fail(session.error());
   auto record = OpenStudy(context);
   if (!record) return Fail(record.error());
-  auto binding = BindTo(*record, *session);
+  const auto session = FindSession(*record, options.session);
+  if (!session) return Fail(session.error());
+  auto binding = BindTo(*record, session->id);
   if (!binding) return Fail(binding.error());
   binding->role = *std::move(role);
   binding->body_site = options.body_site;

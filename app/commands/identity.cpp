@@ -89,7 +89,11 @@ Status Set(Context& run, const Options& options) {
   if (!record) return Fail(record.error());
   const auto subject = record->SubjectByPseudonym(options.subject);
   if (!subject) return Fail(subject.error());
-  auto passphrase = AskPassphrase(PassphraseFile({"", options.passphrase_file}), "Passphrase of identity.striae");
+  // The first one makes the file: a slip of the finger would lock it for good.
+  const auto file = PassphraseFile({"", options.passphrase_file});
+  auto passphrase = std::filesystem::exists(FileOf(*record))
+                        ? AskPassphrase(file, "Passphrase of identity.striae")
+                        : AskNewPassphrase(file, "New passphrase of identity.striae");
   if (!passphrase) return Fail(passphrase.error());
   const auto person = ReadPerson(options.from);
   if (!person) return Fail(person.error());
@@ -148,7 +152,7 @@ Status ChangePassphrase(Context& run, const Options& options) {
   if (!before) return Fail(before.error());
   // Before a new one is asked for: a wrong one is told at once.
   if (const auto all = store::ReadIdentities(FileOf(*record), *before); !all) return Fail(all.error());
-  const auto after = AskPassphrase(options.new_passphrase_file, "New passphrase");
+  const auto after = AskNewPassphrase(options.new_passphrase_file, "New passphrase");
   if (!after) return Fail(after.error());
   if (after->empty()) return Fail(ErrorCode::kUsage, "the new passphrase is empty; nothing was changed");
   std::size_t count = 0;

@@ -1,4 +1,5 @@
 // `striae init`: a new study.
+#include "app/local_time.h"
 #include "app/study.h"
 #include "store/json.h"
 
@@ -39,6 +40,7 @@ void AddCommand_init(CLI::App& root, Context& context) {
     Site site = options->site;
     site.id = NewId<SiteId>();
     if (site.time_zone.empty()) site.time_zone = stamp.zone;
+    if (const Status known = CheckZone(site.time_zone); !known) return known;
     const auto record = store::Record::Create(options->folder, study, site, NewUuid(), stamp);
     if (!record) return Fail(record.error(), "making the study");
     run.Output({{"id", study.id.ToString()}, {"study", store::ToJson(study)}, {"site", store::ToJson(site)}},

@@ -1,5 +1,6 @@
 // `striae note add|correct|strike|list`: notes and deviations about anything in the record.
 #include "app/local_time.h"
+#include "app/names.h"
 #include "app/study.h"
 #include "store/annotations.h"
 #include "store/json.h"
@@ -70,8 +71,10 @@ Status List(Context& run, const Options& options) {
   std::string text;
   for (const store::StudyNote& note : *notes) {
     list.push_back(store::ToJson(note));
+    const auto name = NameOf(*record, note.about);
+    if (!name) return Fail(name.error());
     text += (text.empty() ? "" : "\n") + note.id.ToString() + "  " + note.date.ToString() + "  " +
-            (note.deviation ? "deviation  " : "") + note.about.entity + " " + note.about.id + "  " + note.text;
+            (note.deviation ? "deviation  " : "") + *name + "  " + note.text;
   }
   run.Output({{"notes", list}}, text.empty() ? "no notes" : text);
   return {};

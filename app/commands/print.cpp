@@ -1,6 +1,7 @@
 // `striae print board|label`: targets for the printer.
 #include <fmt/format.h>
 
+#include "app/names.h"
 #include "app/io/files.h"
 #include "app/study.h"
 #include "report/print/targets.h"
@@ -35,23 +36,6 @@ Status PrintBoard(Context& run, const Options& options) {
              fmt::format("{}: {} landscape, {} x {} squares of {:g} mm; print at 100 % and measure the ruler",
                          options.out.string(), paper->name, board.columns, board.rows, board.square_mm));
   return {};
-}
-
-/// By id or by the code that a label shows.
-Result<Session> FindSession(store::Record& record, const std::string& text) {
-  if (const auto id = SessionId::Parse(text)) return record.SessionById(*id);
-  const std::string digits = DigitsOfSessionCode(text);
-  const auto sessions = record.Sessions();
-  if (!sessions) return Fail(sessions.error());
-  const Session* found = nullptr;
-  for (const Session& session : *sessions) {
-    if (digits.empty() || !session.id.ToString().starts_with(digits)) continue;
-    if (found != nullptr) return Fail(ErrorCode::kUsage, "two sessions have the code " + text + "; give the whole id");
-    found = &session;
-  }
-  if (found != nullptr) return *found;
-  return Fail(ErrorCode::kNotFound, "no session '" + text.substr(0, 40) +
-                                        "' in this study; give its id ('striae session list') or its code (3F2A-91BC)");
 }
 
 Status PrintLabels(Context& run, const Options& options) {

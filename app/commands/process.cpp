@@ -1,5 +1,6 @@
 // `striae process`: from the photographs of a session to surfaces and measurements in the record.
 #include "app/command.h"
+#include "app/names.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/study.h"
@@ -12,10 +13,9 @@ Status Process(Context& context, const std::string& session_text) {
   if (!record) return Fail(record.error());
   std::optional<SessionId> session;
   if (!session_text.empty()) {
-    const auto id = ParseSessionId(session_text);
-    if (!id) return Fail(id.error());
-    if (const auto known = record->SessionById(*id); !known) return Fail(known.error());
-    session = *id;
+    const auto found = FindSession(*record, session_text);
+    if (!found) return Fail(found.error());
+    session = found->id;
   }
   ProgressBar bar;
   const auto done = ProcessCaptures(*record, session, [&](std::size_t ready, std::size_t all, const Capture& next) {
@@ -31,6 +31,8 @@ Status Process(Context& context, const std::string& session_text) {
     document["processed"].push_back(ToJson(processed));
     text += (text.empty() ? "" : "\n") + Describe(processed);
     failed += processed.state == Processed::State::kFailed ? 1 : 0;
+    if (!processed.warning.empty())
+      context.Note("WRONG LABEL: " + processed.capture.file_name + ": " + processed.warning);
   }
   document["failed"] = failed;
   context.Output(document, done->empty() ? "nothing to process: no photograph has a role yet" : text);

@@ -1,4 +1,5 @@
 // `striae query open|answer|close|reopen|list`: questions about the data.
+#include "app/names.h"
 #include "app/study.h"
 #include "store/annotations.h"
 #include "store/json.h"
@@ -43,8 +44,10 @@ Status List(Context& run, const Options& options) {
   std::string text;
   for (const store::DataQuery& query : *queries) {
     list.push_back(store::ToJson(query));
+    const auto about = NameOf(*record, query.about);
+    if (!about) return Fail(about.error());
     text += (text.empty() ? "" : "\n") + query.id.ToString() + "  " + std::string(ToString(query.state)) + "  " +
-            query.about.entity + " " + query.about.id + "  " + query.by + ": " + query.text;
+            *about + "  " + query.by + ": " + query.text;
     for (const store::QueryStep& step : query.steps) {
       text += "\n    " + std::string(ToString(step.state)) + " by " + step.by + ": " + step.text;
     }

@@ -4,6 +4,7 @@
 
 #include "acquire/folder.h"
 #include "acquire/structure.h"
+#include "app/names.h"
 #include "app/progress.h"
 #include "app/study.h"
 #include "store/objects.h"
@@ -114,11 +115,11 @@ Status Reconcile(Context& run, const Options& options) {
   if (!record) return Fail(record.error());
   Reconciled all;
   if (!options.session.empty()) {
-    const auto id = ParseSessionId(options.session);
-    if (!id) return Fail(id.error());
-    const auto subject = SubjectOf(*record, *id);
+    const auto session = FindSession(*record, options.session);
+    if (!session) return Fail(session.error());
+    const auto subject = SubjectOf(*record, session->id);
     if (!subject) return Fail(subject.error());
-    all.sessions[*id] = *subject;
+    all.sessions[session->id] = *subject;
   }
   const auto listing = acquire::ListFolder(options.folder);
   if (!listing) return Fail(listing.error());

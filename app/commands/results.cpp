@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "app/names.h"
 #include "app/listing.h"
 #include "app/study.h"
 
@@ -23,9 +24,9 @@ Result<store::ResultFilter> FilterOf(store::Record& record, const Options& optio
     filter.subject = subject->id;
   }
   if (!options.session.empty()) {
-    const auto session = ParseSessionId(options.session);
+    const auto session = FindSession(record, options.session);
     if (!session) return Fail(session.error());
-    filter.session = *session;
+    filter.session = session->id;
   }
   return filter;
 }

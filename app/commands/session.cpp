@@ -1,4 +1,5 @@
 // `striae session open|list|close|reopen`: one subject before the camera, at one visit.
+#include "app/names.h"
 #include "app/listing.h"
 #include "app/local_time.h"
 #include "app/study.h"
@@ -100,28 +101,30 @@ Status List(Context& run, const Options& options) {
 }
 
 Status Close(Context& run, const Options& options) {
-  const auto id = ParseSessionId(options.session);
-  if (!id) return Fail(id.error());
   auto record = OpenStudy(run);
   if (!record) return Fail(record.error());
-  if (const Status closed = record->CloseSession(*id, NewStamp()); !closed) {
-    return Fail(closed.error(), "closing session " + id->ToString());
+  const auto found = FindSession(*record, options.session);
+  if (!found) return Fail(found.error());
+  const SessionId id = found->id;
+  if (const Status closed = record->CloseSession(id, NewStamp()); !closed) {
+    return Fail(closed.error(), "closing session " + id.ToString());
   }
-  const auto session = record->SessionById(*id);
+  const auto session = record->SessionById(id);
   if (!session) return Fail(session.error());
   run.Output(store::ToJson(*session), "closed");
   return {};
 }
 
 Status Reopen(Context& run, const Options& options) {
-  const auto id = ParseSessionId(options.session);
-  if (!id) return Fail(id.error());
   auto record = OpenStudy(run);
   if (!record) return Fail(record.error());
-  if (const Status opened = record->ReopenSession(*id, options.reason, NewStamp()); !opened) {
-    return Fail(opened.error(), "opening session " + id->ToString() + " again");
+  const auto found = FindSession(*record, options.session);
+  if (!found) return Fail(found.error());
+  const SessionId id = found->id;
+  if (const Status opened = record->ReopenSession(id, options.reason, NewStamp()); !opened) {
+    return Fail(opened.error(), "opening session " + id.ToString() + " again");
   }
-  const auto session = record->SessionById(*id);
+  const auto session = record->SessionById(id);
   if (!session) return Fail(session.error());
   run.Output(store::ToJson(*session), "open again");
   return {};

@@ -98,13 +98,8 @@ Status Passphrase(Context& run, const Options& options) {
   if (!by) return Fail(by.error());
   std::filesystem::path file = options.new_passphrase_file;
   if (file.empty() && !*by) file = PassphraseFile(options.sign_in);
-  const auto passphrase = AskPassphrase(file, "New passphrase of " + user->name);
+  const auto passphrase = AskNewPassphrase(file, "New passphrase of " + user->name);
   if (!passphrase) return Fail(passphrase.error());
-  if (file.empty()) {
-    const auto again = AskPassphrase({}, "Once more");
-    if (!again) return Fail(again.error());
-    if (*again != *passphrase) return Fail(ErrorCode::kUsage, "the two were not the same; nothing was changed");
-  }
   const Status set = store::SetPassphrase(*record, user->id, *passphrase, NewUuid(), *by, NewStamp());
   if (!set) return Fail(set.error(), "setting the passphrase");
   return Finish(run, *record, user->name, "passphrase of " + user->name + " set");
