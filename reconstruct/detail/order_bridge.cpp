@@ -14,18 +14,7 @@ constexpr int kCell_px = 16;
 
 }  // namespace
 
-CoarseDepth::CoarseDepth(const OrderScene& scene)
-    : scene_(scene),
-      depth_(scene.phase.mask.width() / kCell_px + 1, scene.phase.mask.height() / kCell_px + 1, 0.0F),
-      cells_(static_cast<std::size_t>(scene.phase.unwrapped.regions)) {
-  for (int row = 0; row < depth_.height(); ++row) {
-    for (int col = 0; col < depth_.width(); ++col) {
-      if (!scene.phase.mask.Contains(col * kCell_px, row * kCell_px)) continue;
-      const int region = scene.phase.unwrapped.region(col * kCell_px, row * kCell_px);
-      if (region >= 0) cells_[static_cast<std::size_t>(region)].emplace_back(col, row);
-    }
-  }
-}
+CoarseDepth::CoarseDepth(const OrderScene& scene) : scene_(scene) {}
 
 template <typename Visit>
 void CoarseDepth::ForEachCell(int region, const Visit& visit) const {
@@ -36,10 +25,24 @@ void CoarseDepth::ForEachCell(int region, const Visit& visit) const {
   }
 }
 
-void CoarseDepth::Add(int region, int offset) {
-  ForEachCell(region, [&](int col, int row, const Eigen::Vector3d& ray, double order) {
-    if (const auto z = scene_.optics.DepthAt(ray, order + offset)) depth_(col, row) = static_cast<float>(*z);
-  });
+void CoarseDepth::Place() {
+  if (cells_.empty()) {
+    const auto& region = scene_.phase.unwrapped.region;
+    cells_.resize(static_cast<std::size_t>(scene_.phase.unwrapped.regions));
+    depth_ = ImageF(region.width() / kCell_px + 1, region.height() / kCell_px + 1, 0.0F);
+    for (int row = 0; row * kCell_px < region.height(); ++row) {
+      for (int col = 0; col * kCell_px < region.width(); ++col) {
+        const int r = region(col * kCell_px, row * kCell_px);
+        if (r >= 0) cells_[static_cast<std::size_t>(r)].emplace_back(col, row);
+      }
+    }
+  }
+  for (const auto& [region, offset] : noted_) {
+    ForEachCell(region, [&, add = offset](int col, int row, const Eigen::Vector3d& ray, double order) {
+      if (const auto z = scene_.optics.DepthAt(ray, order + add)) depth_(col, row) = static_cast<float>(*z);
+    });
+  }
+  noted_.clear();
 }
 
 double CoarseDepth::MeanAround(int col, int row) const {
@@ -56,7 +59,8 @@ double CoarseDepth::MeanAround(int col, int row) const {
   return count == 0 ? 0 : sum / count;
 }
 
-std::optional<RegionOrder> CoarseDepth::Continued(int region) const {
+std::optional<RegionOrder> CoarseDepth::Continued(int region) {
+  Place();
   std::vector<double> offsets;
   ForEachCell(region, [&](int col, int row, const Eigen::Vector3d& ray, double order) {
     const double around = MeanAround(col, row);

@@ -208,7 +208,17 @@ std::vector<RegionEdges> FindGratingEdges(const PhaseResult& phase, int regions)
            static_cast<std::size_t>(line / lines.Step());
   };
   std::vector<std::pair<int, int>> spans(static_cast<std::size_t>(regions) * static_cast<std::size_t>(count), {-1, -1});
-  lines.ForEachPixel(regions, [&](int line, int position, int region) {
+  // An eighth of a stripe is sought at a time, and the end then found to the pixel.
+  const int stride = std::max(1, static_cast<int>(phase.carrier_period_px / 8));
+  const auto outermost = [&](int line, int position, int outwards) {
+    const int region = lines.Region(line, position);
+    for (int k = 1; k < stride && lines.Has(position + outwards); ++k) {
+      if (lines.Region(line, position + outwards) != region) break;
+      position += outwards;
+    }
+    return position;
+  };
+  lines.ForEachPixel(regions, stride, [&](int line, int position, int region) {
     auto& [first, last] = spans[slot(region, line)];
     if (first < 0) first = position;
     last = position;
@@ -224,8 +234,8 @@ std::vector<RegionEdges> FindGratingEdges(const PhaseResult& phase, int regions)
     detail::ParallelLines(static_cast<int>(with.size()), [&](int k) {
       const auto i = static_cast<std::size_t>(k);
       const auto& [first, last] = spans[slot(region, with[i])];
-      low[i] = reader.Read(with[i], first, +1);
-      high[i] = reader.Read(with[i], last, -1);
+      low[i] = reader.Read(with[i], outermost(with[i], first, -1), +1);
+      high[i] = reader.Read(with[i], outermost(with[i], last, +1), -1);
     });
     edges.push_back({JudgeEdge(low, -1, reader), JudgeEdge(high, +1, reader)});
   }

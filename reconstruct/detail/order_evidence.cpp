@@ -45,7 +45,7 @@ bool Possible(const OrderScene& scene, const std::vector<RegionSample>& samples,
 
 std::vector<std::vector<RegionSample>> SampleRegions(const OrderScene& scene, int regions) {
   const auto& region = scene.phase.unwrapped.region;
-  const int step = std::max(2, region.width() / 400);  // medians of ten thousands
+  const int step = std::max(2, region.width() / 200);  // medians of thousands
   std::vector<std::vector<RegionSample>> samples(static_cast<std::size_t>(regions));
   for (int row = step / 2; row < region.height(); row += step) {
     for (int col = step / 2; col < region.width(); col += step) {

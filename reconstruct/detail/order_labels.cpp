@@ -1,5 +1,6 @@
 #include "reconstruct/detail/order_labels.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "reconstruct/detail/parallel.h"
@@ -39,12 +40,20 @@ std::vector<int> ApplyLabels(const Grid& grid, const Image<std::int32_t>& cell_l
     count.resize(labels, 0);
     for (int y = first; y < last; ++y) {
       std::int32_t* r = unwrapped.region.Row(y);
-      for (int x = 0; x < width; ++x) {
+      // Pixels of one region in one cell have one label.
+      std::int32_t region = kNone, label = kNone;
+      for (int x = 0, cell_end = 0; x < width; ++x) {
+        if (x == cell_end) region = kNone, cell_end += grid.cell_x;
         if (r[x] < 0) continue;
-        const std::int32_t sheet = sheet_of_region[static_cast<std::size_t>(r[x])];
-        r[x] = labels_of_sheet[static_cast<std::size_t>(sheet)] > 1 ? label_of(x, y, sheet)
-                                                                    : first_of_sheet[static_cast<std::size_t>(sheet)];
-        ++count[static_cast<std::size_t>(r[x])];
+        if (r[x] != region) {
+          region = r[x];
+          const std::int32_t sheet = sheet_of_region[static_cast<std::size_t>(region)];
+          label = labels_of_sheet[static_cast<std::size_t>(sheet)] > 1
+                      ? label_of(x, y, sheet)
+                      : first_of_sheet[static_cast<std::size_t>(sheet)];
+        }
+        r[x] = label;
+        ++count[static_cast<std::size_t>(label)];
       }
     }
   });
@@ -61,7 +70,8 @@ std::vector<int> ApplyLabels(const Grid& grid, const Image<std::int32_t>& cell_l
     region_of_label[by_size[i]] = static_cast<int>(i);
     unwrapped.pixels[i] = points[by_size[i]];
   }
-  ParallelLines(height, [&](int y) {
+  const bool in_order = std::is_sorted(by_size.begin(), by_size.end());
+  ParallelLines(in_order ? 0 : height, [&](int y) {
     std::int32_t* r = unwrapped.region.Row(y);
     for (int x = 0; x < width; ++x) r[x] = r[x] < 0 ? kNone : region_of_label[static_cast<std::size_t>(r[x])];
   });

@@ -38,11 +38,11 @@ class Lines {
     return At(phase_.unwrapped.phase, line, position) / (2 * std::numbers::pi);
   }
 
-  /// Calls visit(line, position, region) for the pixels of every Step()-th line that belong to one of the first
-  /// `regions` regions; the positions of a line come in ascending order and from one thread, different lines from
+  /// Calls visit(line, position, region) for every `stride`-th pixel of every Step()-th line that belongs to one of the
+  /// first `regions` regions; the positions of a line come in ascending order and from one thread, different lines from
   /// several.
   template <typename Visit>
-  void ForEachPixel(int regions, const Visit& visit) const {
+  void ForEachPixel(int regions, int stride, const Visit& visit) const {
     constexpr int kTogether = 64;  // lines: memory is read row by row
     const auto& region = phase_.unwrapped.region;
     const int step = Step();
@@ -51,9 +51,9 @@ class Lines {
                      const int from = first * step, to = std::min(count(), last * step);
                      const int row_first = horizontal_ ? 0 : from, row_last = horizontal_ ? region.height() : to;
                      const int col_first = horizontal_ ? from : 0, col_last = horizontal_ ? to : region.width();
-                     for (int row = row_first; row < row_last; row += horizontal_ ? 1 : step) {
+                     for (int row = row_first; row < row_last; row += horizontal_ ? stride : step) {
                        const std::int32_t* r = region.Row(row);
-                       for (int col = col_first; col < col_last; col += horizontal_ ? step : 1) {
+                       for (int col = col_first; col < col_last; col += horizontal_ ? step : stride) {
                          if (r[col] >= 0 && r[col] < regions)
                            visit(horizontal_ ? col : row, horizontal_ ? row : col, r[col]);
                        }

@@ -2,11 +2,12 @@
 
 #include <map>
 #include <numeric>
-#include <set>
 #include <tuple>
 
 #include "reconstruct/detail/order_labels.h"
 #include "reconstruct/detail/order_merge.h"
+#include "reconstruct/detail/order_seams.h"
+#include "reconstruct/detail/order_sound.h"
 
 namespace striae::reconstruct::detail {
 namespace {
@@ -34,7 +35,6 @@ Parting::Parting(const PhaseResult& phase, const ImageRgb& picture, int away)
   const Mask eroded =
       Eroded(grid_, sound_, grid_.Cells(kNeck, period, grid_.cell_x), grid_.Cells(kNeck, period, grid_.cell_y));
   Parts parts(grid_, sound_, eroded);
-  parts.Grow(grid_.width + grid_.height);
   const auto points =
       std::count_if(grid_.region.pixels().begin(), grid_.region.pixels().end(), [](std::int32_t r) { return r >= 0; });
   parts.KeepLarge(eroded, kLeastShare * static_cast<double>(points));
@@ -130,8 +130,9 @@ void Parting::Join(PhaseResult& phase, std::vector<RegionOrder>& orders) {
     gap.from = label_of_region[static_cast<std::size_t>(gap.from)];
     gap.to = label_of_region[static_cast<std::size_t>(gap.to)];
   }
-  GiveSeams(warned, sheet_of_label, joined);
-  const bool shadowed = DoubtShadows(sheet_of_label, joined);
+  LabelledCells cells{grid_, label_, sheet_of_label, joined};
+  if (whole > 1) GiveSeams(warned, cells);
+  const bool shadowed = DoubtShadows(lighting_.gaps, away_, horizontal_, cells);
   if (whole == orders.size() && joined.size() == whole && !shadowed && whole == static_cast<std::size_t>(regions_))
     return;
   const std::vector<std::int32_t> sheet_of_region = sheet_;
@@ -143,92 +144,6 @@ void Parting::Join(PhaseResult& phase, std::vector<RegionOrder>& orders) {
     joined[i].points = phase.unwrapped.pixels[r];
     orders[r] = std::move(joined[i]);
   }
-}
-
-/// The window mixes both surfaces where they meet, and no cell knows to which one it belongs.
-void Parting::GiveSeams(const std::vector<bool>& warned, std::vector<std::int32_t>& sheet_of_label,
-                        std::vector<RegionOrder>& orders) {
-  constexpr int kReach = 6;  // cells: a stripe across, two along
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> seam_of;
-  const auto taker = [&](std::int32_t own, std::int32_t other) {
-    const auto o = static_cast<std::size_t>(other);
-    if (o >= warned.size() || warned[o]) return other;
-    const auto [found, is_new] = seam_of.emplace(std::minmax(own, other), static_cast<std::int32_t>(orders.size()));
-    if (is_new) {
-      RegionOrder seam = orders[static_cast<std::size_t>(own)];
-      seam.source = OrderSource::kBridge;
-      seam.margin = 0;
-      seam.warning = "two surfaces whole stripes apart meet here, and the light of both is mixed";
-      orders.push_back(std::move(seam));
-      sheet_of_label.push_back(sheet_of_label[static_cast<std::size_t>(own)]);
-    }
-    return found->second;
-  };
-  std::vector<std::tuple<int, int, std::int32_t>> now, next;
-  const auto silent = [&](std::int32_t label) {
-    return label >= 0 && static_cast<std::size_t>(label) < warned.size() && !warned[static_cast<std::size_t>(label)];
-  };
-  for (int step = 0; step < kReach; ++step) {
-    next.clear();
-    const auto take = [&](int x, int y) {
-      const std::int32_t own = label_(x, y);
-      if (!silent(own)) return;
-      ForNeighbours(grid_, {x, y}, [&](int nx, int ny) {
-        const std::int32_t other = label_(nx, ny);
-        if (other < 0 || other == own) return;
-        if (sheet_of_label[static_cast<std::size_t>(other)] != sheet_of_label[static_cast<std::size_t>(own)]) return;
-        if (orders[static_cast<std::size_t>(other)].source == OrderSource::kNone) return;
-        next.emplace_back(x, y, taker(own, other));
-      });
-    };
-    if (step == 0) {
-      for (int y = 0; y < grid_.height; ++y) {
-        for (int x = 0; x < grid_.width; ++x) take(x, y);
-      }
-    } else {
-      for (const auto& [x, y, label] : now) ForNeighbours(grid_, {x, y}, take);
-    }
-    for (const auto& [x, y, label] : next) label_(x, y) = label;
-    now.swap(next);
-  }
-}
-
-bool Parting::DoubtShadows(std::vector<std::int32_t>& sheet_of_label, std::vector<RegionOrder>& orders) {
-  constexpr int kFewestLines = 8, kMargin = 2;
-  std::map<std::int32_t, std::set<int>> lines;
-  std::map<std::int32_t, std::vector<const Gap*>> gaps;
-  for (const Gap& gap : lighting_.gaps) {
-    const auto from = static_cast<std::size_t>(gap.from), to = static_cast<std::size_t>(gap.to);
-    if (!orders[from].warning.empty() || sheet_of_label[from] != sheet_of_label[to]) continue;
-    if (orders[to].offset - orders[from].offset == gap.step || gap.step == 0) continue;
-    lines[gap.from].insert(gap.line);
-    gaps[gap.from].push_back(&gap);
-  }
-  bool found = false;
-  const int last_line = (horizontal_ ? grid_.width : grid_.height) - 1,
-            length = horizontal_ ? grid_.height : grid_.width;
-  for (const auto& [label, on] : lines) {
-    if (static_cast<int>(on.size()) < kFewestLines) continue;
-    found = true;
-    RegionOrder doubted = orders[static_cast<std::size_t>(label)];
-    doubted.source = OrderSource::kBridge;
-    doubted.margin = std::min(doubted.margin, 0.5);
-    doubted.warning =
-        "a shadow falls beyond it that only a step by whole stripes would cast: it may stand nearer by that; look for "
-        "steps in depth that should not be there";
-    const auto own = static_cast<std::int32_t>(orders.size());
-    orders.push_back(std::move(doubted));
-    sheet_of_label.push_back(sheet_of_label[static_cast<std::size_t>(label)]);
-    for (const Gap* gap : gaps[label]) {
-      for (int line = std::max(0, gap->line - kMargin); line <= std::min(last_line, gap->line + kMargin); ++line) {
-        for (int at = gap->last; at >= 0 && at < length; at -= away_) {
-          std::int32_t& cell = horizontal_ ? label_(line, at) : label_(at, line);
-          if (cell == label) cell = own;
-        }
-      }
-    }
-  }
-  return found;
 }
 
 }  // namespace striae::reconstruct::detail

@@ -29,9 +29,6 @@ class Parting {
 
  private:
   void MergeProven();
-  void GiveSeams(const std::vector<bool>& warned, std::vector<std::int32_t>& sheet_of_label,
-                 std::vector<RegionOrder>& orders);
-  bool DoubtShadows(std::vector<std::int32_t>& sheet_of_label, std::vector<RegionOrder>& orders);
 
   Grid grid_;
   Mask sound_;

@@ -41,12 +41,7 @@ class Parts {
   void Grow(int steps) {
     std::vector<Cell> now, next;
     for (const bool valleys : {false, true}) {
-      now.clear();
-      for (int row = 0; row < grid_.height; ++row) {
-        for (int col = 0; col < grid_.width; ++col) {
-          if (part(col, row) != kNone && OnRim({col, row})) now.emplace_back(col, row);
-        }
-      }
+      now = Front([&](int x, int y) { return (sound_(x, y) == 0) == valleys; });
       for (int step = 0; step < steps && !now.empty(); ++step) {
         next.clear();
         for (const Cell& cell : now) {
@@ -63,12 +58,12 @@ class Parts {
     }
   }
 
-  /// Leaves only the seeds of parts that are grown to at least `least` cells.
+  /// Leaves only the seeds of parts that would grow to at least `least` cells.
   void KeepLarge(const Mask& eroded, double least) {
-    std::vector<std::size_t> cells(parent.size(), 0);
-    for (const std::int32_t p : part.pixels()) {
-      if (p >= 0) ++cells[static_cast<std::size_t>(p)];
-    }
+    std::vector<std::size_t> cells = Cells();
+    if (std::all_of(cells.begin(), cells.end(), [&](std::size_t n) { return static_cast<double>(n) >= least; })) return;
+    Grow(grid_.width + grid_.height);
+    cells = Cells();
     std::vector<bool> keep(parent.size());
     for (std::size_t p = 0; p < parent.size(); ++p) keep[p] = static_cast<double>(cells[p]) >= least;
     for (int row = 0; row < grid_.height; ++row) {
@@ -100,12 +95,7 @@ class Parts {
         for (const auto& [x, y] : cells) part(x, y) = kNone, speck(x, y) = 1, sound_(x, y) = 0;
       }
     }
-    std::vector<Cell> now, next;
-    for (int row = 0; row < grid_.height; ++row) {
-      for (int col = 0; col < grid_.width; ++col) {
-        if (part(col, row) != kNone && OnRim({col, row})) now.emplace_back(col, row);
-      }
-    }
+    std::vector<Cell> now = Front([&](int x, int y) { return speck(x, y) != 0; }), next;
     for (; !now.empty(); now.swap(next)) {
       next.clear();
       for (const Cell& cell : now) {
@@ -154,10 +144,33 @@ class Parts {
     }
     return open;
   }
-  [[nodiscard]] bool OnRim(const Cell& cell) const {
-    bool rim = false;
-    ForNeighbours(grid_, cell, [&](int x, int y) { rim = rim || part(x, y) == kNone; });
-    return rim;
+  [[nodiscard]] std::vector<std::size_t> Cells() const {
+    std::vector<std::size_t> cells(parent.size(), 0);
+    for (const std::int32_t p : part.pixels()) {
+      if (p >= 0) ++cells[static_cast<std::size_t>(p)];
+    }
+    return cells;
+  }
+
+  /// Cells of parts, row by row, beside cells of none that are of the part's region and `open`.
+  template <typename Open>
+  [[nodiscard]] std::vector<Cell> Front(const Open& open) const {
+    std::vector<Cell> front;
+    for (int row = 0; row < grid_.height; ++row) {
+      const std::int32_t *p = part.Row(row), *r = grid_.region.Row(row);
+      for (int col = 0; col < grid_.width; ++col) {
+        if (p[col] != kNone || r[col] < 0 || !open(col, row)) continue;
+        ForNeighbours(grid_, {col, row}, [&](int x, int y) {
+          if (part(x, y) != kNone && grid_.region(x, y) == r[col]) front.emplace_back(x, y);
+        });
+      }
+    }
+    const auto row_first = [](const Cell& a, const Cell& b) {
+      return std::pair(a.second, a.first) < std::pair(b.second, b.first);
+    };
+    std::sort(front.begin(), front.end(), row_first);
+    front.erase(std::unique(front.begin(), front.end()), front.end());
+    return front;
   }
 
   const Grid& grid_;
