@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -56,6 +57,35 @@ TEST(ResolveOrder, WithoutStripeCountTheDistanceDecidesAndSaysHowSure) {
   const auto orders = ResolveOrder(phase, scene.rig, 1020);
   EXPECT_EQ(orders.front().source, OrderSource::kDistance);
   EXPECT_LT(orders.front().margin, 1);
+}
+
+TEST(OrderMargin, IsNothingHalfwayBetweenTwoWholeNumbersAndGrowsStraightFromThere) {
+  FringeScene scene{SmallQuarterRig(), UprightLimb(1000, 60)};
+  const PhaseResult phase = PhaseOf(scene);
+  scene.rig.stripes.reset();  // the distance alone decides
+  // The distance is told in steps of half a millimetre; one stripe is tens of them.
+  std::vector<double> margins;
+  std::vector<std::size_t> changes;
+  int last = 0;
+  for (double told = 960; told < 1060; told += 0.5) {
+    const RegionOrder order = ResolveOrder(phase, scene.rig, told).front();
+    if (!margins.empty() && order.offset != last) changes.push_back(margins.size());
+    last = order.offset;
+    margins.push_back(order.margin);
+    EXPECT_NE(order.warning, "") << told;  // other whole numbers fit the working range
+  }
+  ASSERT_GE(changes.size(), 2U);
+  const std::size_t from = changes[0], to = changes[1];
+  const double most =
+      *std::max_element(margins.begin() + static_cast<long>(from), margins.begin() + static_cast<long>(to));
+  const double step = 2 * most / static_cast<double>(to - from);  // from nothing to the most within half a stripe
+  for (const std::size_t change : {from, to}) EXPECT_LT(std::min(margins[change - 1], margins[change]), 1.1 * step);
+  // Straight up and down again; 5 % for the depth per stripe, which changes with the distance.
+  for (std::size_t i = from; i < to; ++i) {
+    const double from_change = static_cast<double>(std::min(i - from, to - i)) + (i - from < to - i ? 0.5 : -0.5);
+    EXPECT_NEAR(margins[i], step * from_change, 0.05 * most + step) << i;
+  }
+  EXPECT_LT(most, 0.5);  // at least two whole numbers fit: never more than one over their count
 }
 
 TEST(SettleOrder, LeavesALimbWhole) {
