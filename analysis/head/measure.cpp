@@ -1,5 +1,6 @@
 #include "analysis/head/measure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -7,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "analysis/head/angles.h"
+#include "analysis/head/detail/prepare.h"
 #include "analysis/head/detail/report.h"
 #include "analysis/head/detail/search.h"
 #include "analysis/head/detail/uncertainty.h"
@@ -21,45 +23,12 @@ using detail::Patch;
 
 constexpr double kLargestNeckMoveMm = 110;  // protraction or side shift of a neck; one stripe in depth is 135 mm
 constexpr double kLeastVisible = 0.4;
+// What fits this closely is the same skin; the rest of it may be a stripe out of order, or under hair by now.
+constexpr double kCloselyMm = 0.4, kOverlapForgiven = 0.15;
+constexpr double kSurelyOneMm = 0.8;    // twice what breath and expression left of one person in trials
+constexpr double kMirrorGain = 0.7;     // of the residual: sides differ by 1 mm and more in people, noise is 0.2 mm
 constexpr double kHoldPerResidual = 5;  // a ball's noise resists by 2 to 3 times the residual, faces by 13 and more
 constexpr double kRivalRatio = 1.1, kRivalMargin = 0.01;  // losses of the same basin differ by less than a hundredth
-
-Status Check(const Options& options) {
-  const Eigen::Vector3d up = options.up_in_camera;
-  if (!up.allFinite() || up.norm() < 0.5 || std::abs(up.normalized().z()) > 0.86) {
-    return Fail(ErrorCode::kUsage, "the subject's up must be a unit vector across the optical axis");
-  }
-  if (!(options.spacing_mm >= 0.5 && options.spacing_mm <= 6) || options.resamples < 20 || options.resamples > 100000) {
-    return Fail(ErrorCode::kUsage, "spacing must be 0.5 to 6 mm, and resamples 20 to 100000");
-  }
-  return {};
-}
-
-/// Fine and coarse points with normals; normals reach three spacings, as far as skin is flat.
-Result<std::pair<Cloud, Cloud>> Prepare(const Surface& surface, double spacing_mm, const char* which) {
-  const std::string where = std::string("preparing the ") + which + " capture";
-  auto fine = detail::WithNormals(detail::Thin(surface, spacing_mm), std::max(5.0, 3 * spacing_mm));
-  if (!fine) return Fail(fine.error(), where);
-  auto coarse = detail::WithNormals(detail::Thin(surface, 3 * spacing_mm), 8 * spacing_mm);
-  if (!coarse) return Fail(coarse.error(), where);
-  return std::pair{std::move(*fine), std::move(*coarse)};
-}
-
-Eigen::Vector3d Middle(const Cloud& cloud) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const auto& p : cloud.point) middle += p.cast<double>();
-  return middle / static_cast<double>(std::max<std::size_t>(1, cloud.size()));
-}
-
-/// Every fourth point or so: a coarse patch from the fine one keeps both on the same skin.
-Patch MakePatch(const Cloud& fine, const std::vector<std::uint32_t>& indices) {
-  Patch patch;
-  patch.fine = detail::Select(fine, indices);
-  std::vector<std::uint32_t> few;
-  for (std::size_t i = 0; i < indices.size(); i += 9) few.push_back(indices[i]);
-  patch.coarse = detail::Select(fine, few);
-  return patch;
-}
 
 std::string Number(double value, const char* format) {
   char text[32];
@@ -72,9 +41,10 @@ Status Judge(const Fit& fit, const std::string& part, const Options& options) {
   const auto refuse = [&](const std::string& what) {
     return Fail(ErrorCode::kMeasurementRefused, "the " + part + " of the neutral capture " + what);
   };
-  if (fit.pairs.size() < 100 || fit.overlap < options.least_overlap) {
+  const double least_overlap = options.least_overlap - (fit.residual_mm <= kCloselyMm ? kOverlapForgiven : 0);
+  if (fit.pairs.size() < 100 || fit.overlap < least_overlap) {
     return refuse("finds its counterpart in the other capture for only " + Number(100 * fit.overlap, "%.0f %%") +
-                  " of its skin (at least " + Number(100 * options.least_overlap, "%.0f %%") +
+                  " of its skin (at least " + Number(100 * least_overlap, "%.0f %%") +
                   "): check that both show the same person, and repeat the capture");
   }
   if (fit.visible < kLeastVisible) {
@@ -82,10 +52,10 @@ Status Judge(const Fit& fit, const std::string& part, const Options& options) {
                   Number(100 * fit.visible, "%.0f %%") +
                   " of it can be seen): take the photograph from nearer to the direction of the face");
   }
-  if (fit.residual_mm > options.largest_residual_mm) {
+  const double allowed = std::min(options.largest_residual_mm, std::max(kSurelyOneMm, 4 * fit.noise_mm));
+  if (fit.residual_mm > allowed) {
     return refuse("lies " + Number(fit.residual_mm, "%.1f mm") + " (root mean square) off its counterpart, more than " +
-                  Number(options.largest_residual_mm, "%.1f mm") +
-                  ": a different person, or stripes out of order in one capture");
+                  Number(allowed, "%.1f mm") + ": a different person, or stripes out of order in one capture");
   }
   if (fit.rival_loss < kRivalRatio * fit.loss + kRivalMargin) {
     return refuse(
@@ -102,6 +72,17 @@ Status Judge(const Fit& fit, const std::string& part, const Options& options) {
   return {};
 }
 
+/// Refuses a torso that fits its counterpart's mirror image better: one of the photographs was mirrored on its way
+/// here.
+Status JudgeMirror(const Patch& torso, const Fit& fit, const Capture& capture, const Eigen::Vector3d& shift) {
+  const Fit other = detail::FitTorso(detail::Mirrored(torso), capture, shift);
+  if (other.overlap < fit.overlap - 0.1 || other.residual_mm > kMirrorGain * fit.residual_mm) return {};
+  return Fail(ErrorCode::kMeasurementRefused,
+              "the torso fits the other capture's mirror image better (" + Number(other.residual_mm, "%.2f mm") +
+                  " instead of " + Number(fit.residual_mm, "%.2f mm") +
+                  "): one of the photographs was mirrored; use both as the camera wrote them");
+}
+
 FittedPart PartOf(const Fit& fit) {
   FittedPart part;
   part.pose_from_neutral = fit.target_from_patch;
@@ -115,11 +96,11 @@ FittedPart PartOf(const Fit& fit) {
 }  // namespace
 
 Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, const Options& options, HeadFits* fits) {
-  if (auto checked = Check(options); !checked) return Fail(checked.error());
+  if (auto checked = detail::Check(options); !checked) return Fail(checked.error());
   const Eigen::Matrix3d subject_from_camera = SubjectFromCamera(options.up_in_camera);
-  const auto from = Prepare(neutral, options.spacing_mm, "neutral");
+  const auto from = detail::Prepare(neutral, options.spacing_mm, "neutral");
   if (!from) return Fail(from.error());
-  const auto to = Prepare(pose, options.spacing_mm, "other");
+  const auto to = detail::Prepare(pose, options.spacing_mm, "other");
   if (!to) return Fail(to.error());
   if (to->first.size() < 1000 || to->second.size() < 100) {
     return Fail(ErrorCode::kMeasurementRefused, "the other capture has too few points for a head and a torso");
@@ -128,10 +109,12 @@ Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, cons
   if (!parts) return Fail(parts.error());
 
   const Capture capture{detail::Target(to->second), detail::Target(to->first)};
-  const Fit torso =
-      detail::FitTorso(MakePatch(from->first, parts->torso), capture, Middle(to->second) - Middle(from->second));
+  const Patch torso_patch = detail::MakePatch(from->first, parts->torso);
+  const Eigen::Vector3d shift = detail::Middle(to->second) - detail::Middle(from->second);
+  const Fit torso = detail::FitTorso(torso_patch, capture, shift);
+  if (auto judged = JudgeMirror(torso_patch, torso, capture, shift); !judged) return Fail(judged.error());
   if (auto judged = Judge(torso, "torso", options); !judged) return Fail(judged.error());
-  const Fit head = detail::FitHead(MakePatch(from->first, parts->head), capture, torso.target_from_patch,
+  const Fit head = detail::FitHead(detail::MakePatch(from->first, parts->head), capture, torso.target_from_patch,
                                    parts->neck_in_camera, subject_from_camera);
   if (auto judged = Judge(head, "head", options); !judged) return Fail(judged.error());
 

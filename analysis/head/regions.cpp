@@ -15,6 +15,16 @@ Result<std::vector<Eigen::Vector2d>> Polygon(const nlohmann::json& json, const c
   return outline->polygon_px;
 }
 
+/// [col, row], or none where the name is absent.
+Result<std::optional<Eigen::Vector2d>> Point(const nlohmann::json& json, const char* name) {
+  if (!json.contains(name)) return std::optional<Eigen::Vector2d>();
+  const auto& at = json[name];
+  if (!at.is_array() || at.size() != 2 || !at[0].is_number() || !at[1].is_number()) {
+    return Fail(ErrorCode::kBadFile, std::string(name) + " must be [col, row]");
+  }
+  return std::optional(Eigen::Vector2d(at[0].get<double>(), at[1].get<double>()));
+}
+
 nlohmann::json Points(const std::vector<Eigen::Vector2d>& polygon) {
   nlohmann::json points = nlohmann::json::array();
   for (const auto& p : polygon) points.push_back({p.x(), p.y()});
@@ -33,7 +43,15 @@ Result<Regions> RegionsFromJson(std::string_view text) {
   if (!torso) return Fail(torso.error());
   regions.head_px = *std::move(head);
   regions.torso_px = *std::move(torso);
-  if (regions.head_px.empty() && regions.torso_px.empty()) {
+  const auto brow = Point(json, "brow_px"), chin = Point(json, "chin_px");
+  if (!brow) return Fail(brow.error());
+  if (!chin) return Fail(chin.error());
+  if (brow->has_value() != chin->has_value()) {
+    return Fail(ErrorCode::kBadFile, "brow_px and chin_px are of use only together");
+  }
+  regions.brow_px = *brow;
+  regions.chin_px = *chin;
+  if (regions.head_px.empty() && regions.torso_px.empty() && !regions.brow_px) {
     return Fail(ErrorCode::kBadFile, "no region: give head_px or torso_px as a list of [col, row]");
   }
   if (json.contains("image_sha256")) {
@@ -49,6 +67,8 @@ std::string ToJsonText(const Regions& regions) {
   nlohmann::json json = nlohmann::json::object();
   if (!regions.head_px.empty()) json["head_px"] = Points(regions.head_px);
   if (!regions.torso_px.empty()) json["torso_px"] = Points(regions.torso_px);
+  if (regions.brow_px) json["brow_px"] = {regions.brow_px->x(), regions.brow_px->y()};
+  if (regions.chin_px) json["chin_px"] = {regions.chin_px->x(), regions.chin_px->y()};
   if (regions.image_sha256) json["image_sha256"] = regions.image_sha256->ToString();
   return json.dump(2) + "\n";
 }

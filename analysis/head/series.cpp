@@ -50,7 +50,8 @@ std::vector<Repeatability> PoseRepeatability(std::span<const std::vector<Analysi
     for (const std::vector<AnalysisReport>& group : groups) {
       if (group.size() < 2) continue;
       double mean = 0;
-      for (const AnalysisReport& report : group) mean += AngleOf(report, name).value / static_cast<double>(group.size());
+      for (const AnalysisReport& report : group)
+        mean += AngleOf(report, name).value / static_cast<double>(group.size());
       for (const AnalysisReport& report : group) squares += std::pow(AngleOf(report, name).value - mean, 2);
       freedom += group.size() - 1;
     }

@@ -30,6 +30,7 @@ struct Fit {
   Eigen::Isometry3d target_from_patch = Eigen::Isometry3d::Identity();
   std::vector<Pair> pairs;  ///< within the gates; what disagrees with the rest has no weight
   double residual_mm = 0;   ///< root mean square of ToPlane over the best nine tenths of the pairs
+  double noise_mm = 0;      ///< median of the pairs' standard uncertainties, both points', as the surfaces state them
   double overlap = 0;       ///< share of the patch's visible points with a counterpart within the gates
   double agreement = 0;     ///< mean share of their weight that the pairs keep in the robust least squares
   double visible = 0;       ///< share of the patch's points that face the camera after the motion, within the field

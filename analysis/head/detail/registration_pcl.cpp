@@ -183,6 +183,9 @@ Fit Target::Judge(const Cloud& patch, const Eigen::Isometry3d& target_from_patch
   fit.loss = loss / static_cast<double>(patch.size());
   fit.visible = static_cast<double>(visible_count) / static_cast<double>(patch.size());
   fit.overlap = static_cast<double>(found) / static_cast<double>(visible_count);
+  std::vector<double> sds = matched.sd_mm;
+  std::nth_element(sds.begin(), sds.begin() + static_cast<std::ptrdiff_t>(sds.size() / 2), sds.end());
+  fit.noise_mm = sds[sds.size() / 2];
   fit.agreement = WeighRobustly(matched.pairs, matched.sd_mm);
   std::sort(squares.begin(), squares.end());
   squares.resize(std::max<std::size_t>(1, squares.size() * 9 / 10));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -14,6 +15,39 @@ namespace {
 
 constexpr double kCellMm = 30;        // correlation length of the Fourier stage's noise at 2 m, with a margin
 constexpr double kSingularTilt = 80;  // deg
+
+const std::array<Measurement, 4> kNames{{
+    {"rotation", {"99STRIAE", "HT-ROT", "Head rotation relative to torso, positive to subject's left"}},
+    {"flexion", {"99STRIAE", "HT-FLEX", "Head flexion relative to torso, positive chin to chest"}},
+    {"tilt", {"99STRIAE", "HT-TILT", "Head lateral tilt relative to torso, positive to subject's right"}},
+    {"total_angle", {"99STRIAE", "HT-TOTAL", "Total angle of head relative to torso"}},
+}};
+constexpr const char* kSequence = "Z-X-Y intrinsic, ISB axes (X forward, Y up, Z right): extension, tilt, rotation";
+
+nlohmann::json Rows(const Eigen::Matrix3d& matrix) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2)});
+  return rows;
+}
+
+/// The four angles with their uncertainties; those of the sequence are flagged where it is singular.
+std::vector<Measurement> Measurements(const AngleArray& angles, const AngleArray& sd) {
+  const bool singular = std::abs(angles[2]) > kSingularTilt;
+  std::vector<Measurement> list;
+  for (std::size_t k = 0; k < 4; ++k) {
+    Measurement m = kNames[k];
+    m.value = angles[k];
+    m.unit = "deg";
+    m.uncertainty = sd[k];
+    if (singular && k < 3) {
+      m.status = Measurement::Status::kFlagged;
+      m.reason =
+          "beyond a tilt of 80 deg rotation and flexion cannot be told apart: use rotation_matrix and total_angle";
+    }
+    list.push_back(std::move(m));
+  }
+  return list;
+}
 
 AngleArray AnglesOf(const Eigen::Matrix3d& rotation_in_subject) {
   const HeadAngles a = Decompose(rotation_in_subject);
@@ -87,12 +121,6 @@ std::optional<AngleUncertainty> Uncertainties(const Fit& head, const Fit& torso,
 AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& rotation,
                       const Eigen::Matrix3d& subject_from_camera, const AngleUncertainty& sd, const Regions& used,
                       const Options& options) {
-  const std::array<Measurement, 4> names{{
-      {"rotation", {"99STRIAE", "HT-ROT", "Head rotation relative to torso, positive to subject's left"}},
-      {"flexion", {"99STRIAE", "HT-FLEX", "Head flexion relative to torso, positive chin to chest"}},
-      {"tilt", {"99STRIAE", "HT-TILT", "Head lateral tilt relative to torso, positive to subject's right"}},
-      {"total_angle", {"99STRIAE", "HT-TOTAL", "Total angle of head relative to torso"}},
-  }};
   AnalysisReport report;
   report.analysis = "head";
   report.version = "2";
@@ -106,30 +134,19 @@ AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& 
                                   {"cell_mm", kCellMm},
                                   {"largest_residual_mm", options.largest_residual_mm}};
   const AngleArray angles = AnglesOf(subject_from_camera * rotation * subject_from_camera.transpose());
-  const bool singular = std::abs(angles[2]) > kSingularTilt;
+  report.measurements = Measurements(angles, sd.whole);
   nlohmann::json words = nlohmann::json::object(), registration = words, bands = words;
   for (std::size_t k = 0; k < 4; ++k) {
-    Measurement m = names[k];
-    m.value = angles[k];
-    m.unit = "deg";
-    m.uncertainty = sd.whole[k];
-    if (singular && k < 3) {
-      m.status = Measurement::Status::kFlagged;
-      m.reason =
-          "beyond a tilt of 80 deg rotation and flexion cannot be told apart: use rotation_matrix and total_angle";
-    }
+    const Measurement& m = report.measurements[k];
     words[m.name] = InWords(m.name, m.value);
     registration[m.name] = sd.registration[k];
-    if (const auto band = TwstrsBand(m.name, m.value); band && !(singular && k < 3)) {
+    if (const auto band = TwstrsBand(m.name, m.value); band && m.status == Measurement::Status::kOk) {
       bands[m.name] = {{"score", band->score}, {"words", band->words}};
     }
-    report.measurements.push_back(std::move(m));
   }
-  nlohmann::json rows = nlohmann::json::array();
-  for (int i = 0; i < 3; ++i) rows.push_back({rotation(i, 0), rotation(i, 1), rotation(i, 2)});
-  report.details = {{"rotation_matrix", rows},
+  report.details = {{"rotation_matrix", Rows(rotation)},
                     {"axes_source", "camera"},
-                    {"sequence", "Z-X-Y intrinsic, ISB axes (X forward, Y up, Z right): extension, tilt, rotation"},
+                    {"sequence", kSequence},
                     {"words", words},
                     {"registration_uncertainty", registration},
                     {"twstrs_bands", bands},
@@ -138,6 +155,30 @@ AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& 
                     {"torso", Part(torso)}};
   report.details["residual_mm"] = {{"head", head.residual_mm}, {"torso", torso.residual_mm}};
   report.details["overlap"] = {{"head", head.overlap}, {"torso", torso.overlap}};
+  return report;
+}
+
+AnalysisReport AbsoluteReport(const Fit& head, const Fit& torso, const Eigen::Matrix3d& rotation_in_subject,
+                              bool landmarks_given, const Options& options) {
+  AnalysisReport report;
+  report.analysis = "head";
+  report.version = "2";
+  report.provenance.version = StriaeVersion();
+  report.provenance.parameters = {{"spacing_mm", options.spacing_mm},
+                                  {"symmetry_sd_deg", options.symmetry_sd_deg},
+                                  {"profile_sd_deg", options.profile_sd_deg}};
+  const double side = options.symmetry_sd_deg, profile = options.profile_sd_deg;
+  // The total angle turns about whatever axis the pose has: the worse of the two holds for all.
+  report.measurements = Measurements(AnglesOf(rotation_in_subject), {side, profile, side, profile});
+  nlohmann::json words = nlohmann::json::object();
+  for (const Measurement& m : report.measurements) words[m.name] = InWords(m.name, m.value);
+  report.details = {{"rotation_in_subject", Rows(rotation_in_subject)},
+                    {"axes_source", "anatomical"},
+                    {"landmarks_source", landmarks_given ? "given" : "found"},
+                    {"sequence", kSequence},
+                    {"words", words},
+                    {"symmetry_residual_mm", {{"head", head.residual_mm}, {"torso", torso.residual_mm}}},
+                    {"overlap", {{"head", head.overlap}, {"torso", torso.overlap}}}};
   return report;
 }
 

@@ -30,4 +30,8 @@ AnalysisReport Report(const Fit& head, const Fit& torso, const Eigen::Matrix3d& 
                       const Eigen::Matrix3d& subject_from_camera, const AngleUncertainty& sd, const Regions& used,
                       const Options& options);
 
+/// Of a single capture: the head's rotation in the torso's anatomical axes; fits of the mirror images.
+AnalysisReport AbsoluteReport(const Fit& head, const Fit& torso, const Eigen::Matrix3d& rotation_in_subject,
+                              bool landmarks_given, const Options& options);
+
 }  // namespace striae::head::detail

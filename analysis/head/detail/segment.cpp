@@ -16,6 +16,9 @@ constexpr double kMouthAboveChinMm = 42;  // of adults, the upper lip's edge (st
 constexpr double kRimMm = 8;              // the light's edge or the outline's: the Fourier window frays
 constexpr float kLeastFacing = 0.34F;     // cosine: skin seen at more than 70 degrees of grazing is left out
 constexpr double kLeastNoseMm = 9;        // a sphere of a head's size: 6 mm
+constexpr std::size_t kFewFace =
+    800;  // upper faces have 1500 to 3500 at 2 mm; below, the jaw's skin is worth its movement
+constexpr double kJawAboveChinMm = 12;
 constexpr double kTorsoHeightMm = 260;
 constexpr double kWidestHeadMm = 180;  // what is wider is hair
 constexpr float kLargestSdMm = 1.0F;   // hair, rims
@@ -103,7 +106,10 @@ Result<Segmentation> FromDrawn(const Cloud& cloud, const Eigen::Matrix3d& subjec
 /// Head and torso by the landmarks' heights.
 void Collect(const Cloud& cloud, const Points& in_subject, const Silhouette& silhouette, const Outline& outline,
              const Landmarks& marks, float back, Segmentation& found) {
-  const double face_top = found.top_mm - kRimMm, face_bottom = found.chin_mm + kMouthAboveChinMm;
+  found.head.clear();
+  found.torso.clear();
+  const double face_top = found.top_mm - kRimMm;
+  const double face_bottom = found.chin_mm + (found.with_jaw ? kJawAboveChinMm : kMouthAboveChinMm);
   const double chest_top = found.shoulder_mm - 15, chest_bottom = chest_top - kTorsoHeightMm;
   const double chest_middle = outline.runs[marks.neck].Middle();
   const double head_width = std::min(marks.head_width, kWidestHeadMm);
@@ -169,6 +175,10 @@ Result<Segmentation> Segment(const Cloud& cloud, const Eigen::Matrix3d& subject_
   }
   found.nose_mm = NoseOf(silhouette, outline.first, silhouette.BinOf(found.chin_mm + kMouthAboveChinMm), marks->middle);
   Collect(cloud, in_subject, silhouette, outline, *marks, back, found);
+  if (!head_drawn && found.head.size() < kFewFace && marks->chin_drop_mm > 0) {
+    found.with_jaw = true;
+    Collect(cloud, in_subject, silhouette, outline, *marks, back, found);
+  }
   if (head_drawn) found.head = InsideOf(cloud, drawn.head_px);
   if (torso_drawn) found.torso = InsideOf(cloud, drawn.torso_px);
   if (auto checked = CheckSizes(found); !checked) return Fail(checked.error());

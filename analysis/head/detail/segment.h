@@ -18,7 +18,8 @@ struct Segmentation {
   Eigen::Vector3d neck_in_camera;  ///< about the middle of the neck, behind its skin
   // Heights along the subject's up axis and the head's width, mm, for the report.
   double top_mm = 0, chin_mm = 0, neck_mm = 0, shoulder_mm = 0, head_width_mm = 0;
-  double nose_mm = 0;  ///< how far the midline of the face stands out from what lies 30 mm beside it
+  bool with_jaw = false;  ///< hair hides so much of the upper face that mouth and jaw are taken as well
+  double nose_mm = 0;     ///< how far the midline of the face stands out from what lies 30 mm beside it
 };
 
 /// From the silhouette and the midline's profile; the head ends above the mouth.
