@@ -89,6 +89,21 @@ TEST_F(ImportFiles, TheSamePhotographUnderTwoSubjectsIsRefusedAndTheFirstPlaceNa
   EXPECT_THAT(ran.err, HasSubstr(session_));
 }
 
+TEST_F(ImportFiles, ASessionIsNamedByItsIdItsBeginningOrItsLabelsCode) {
+  const std::string begin = session_.substr(0, 8);
+  const std::string code = begin.substr(0, 4) + "-" + begin.substr(4);
+  int number = 0;
+  for (const std::string& name : {session_, begin, code}) {
+    const std::string photo = WritePhoto("DSC_" + std::to_string(++number) + ".JPG");
+    EXPECT_EQ(Do({"import", "--session", name, photo}).at("session"), session_) << name;
+  }
+  EXPECT_EQ(Do({"show", session_}).at("captures").size(), 3U);
+  EXPECT_EQ(Do({"session", "close", code}).at("id"), session_);
+  const Ran none = Run({"import", "--session", begin.substr(0, 7), WritePhoto("DSC_9.JPG")});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("striae session list"));
+}
+
 TEST_F(ImportFiles, ReconcileHoldsACardAgainstTheRecord) {
   WritePhoto("card/DCIM/DSC_0001.JPG");
   WritePhoto("card/DCIM/DSC_0002.JPG");

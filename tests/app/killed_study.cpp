@@ -51,16 +51,18 @@ KilledStudy::KilledStudy() {
 const std::vector<KilledStudy::Make>& KilledStudy::All() {
   using K = KilledStudy;
   // Import three times: photographs matter most.
-  static const std::vector<Make> all = {&K::Import,        &K::AddSubject,     &K::Consent,   &K::OpenSession,
-                                        &K::Process,       &K::Outline,        &K::Reassign,  &K::Merge,
-                                        &K::Backup,        &K::Sign,           &K::Import,    &K::ImportWithSidecar,
-                                        &K::ImportBroken,  &K::Watch,          &K::Init,      &K::Withdraw,
-                                        &K::AddArm,        &K::AssignArm,      &K::PlanVisit, &K::ReplanVisit,
-                                        &K::AddDevice,     &K::AddCalibration, &K::Import,    &K::CloseSession,
-                                        &K::ReopenSession, &K::Exclude,        &K::Note,      &K::StrikeTreatment,
-                                        &K::OpenQuery,     &K::AnswerQuery,    &K::AddUser,   &K::SetPassphrase,
-                                        &K::ChangeUser,    &K::Lock,           &K::Unlock,    &K::Restore,
-                                        &K::Repair,        &K::SetIdentity};
+  static const std::vector<Make> all = {
+      &K::Import,        &K::AddSubject,     &K::Consent,     &K::OpenSession,
+      &K::Process,       &K::Outline,        &K::Reassign,    &K::Merge,
+      &K::Backup,        &K::Sign,           &K::Import,      &K::ImportWithSidecar,
+      &K::ImportBroken,  &K::Watch,          &K::Init,        &K::Withdraw,
+      &K::AddArm,        &K::AssignArm,      &K::PlanVisit,   &K::ReplanVisit,
+      &K::AddDevice,     &K::AddCalibration, &K::Import,      &K::CloseSession,
+      &K::ReopenSession, &K::Exclude,        &K::Note,        &K::StrikeTreatment,
+      &K::OpenQuery,     &K::AnswerQuery,    &K::AddUser,     &K::SetPassphrase,
+      &K::ChangeUser,    &K::Lock,           &K::Unlock,      &K::Restore,
+      &K::Repair,        &K::SetIdentity,    &K::AddSite,     &K::CorrectTreatment,
+      &K::CorrectNote,   &K::CloseQuery,     &K::ReopenQuery, &K::ChangeIdentityPassphrase};
   return all;
 }
 std::size_t KilledStudy::Kinds() { return All().size(); }
@@ -256,6 +258,33 @@ Command KilledStudy::Restore(const std::string& round) {
 Command KilledStudy::Repair(const std::string& round) {
   Write("trial/objects/.part-" + round, "left by a program that was stopped " + round);
   return {{"check", "--repair"}, {}};
+}
+Command KilledStudy::AddSite(const std::string& round) {
+  return {{"site", "add", "S" + round, "--time-zone", "UTC"}, Shows({"site", "list"}, "\"S" + round + "\"")};
+}
+Command KilledStudy::CorrectTreatment(const std::string& round) {
+  const json entered = Do({"treatment", "add", "S001", "--date", "2026-05-04", "--text", "first " + round});
+  return {{"treatment", "correct", entered.at("id"), "--text", "corrected " + round, "--reason", "misread"},
+          Shows({"treatment", "list"}, "corrected " + round)};
+}
+Command KilledStudy::CorrectNote(const std::string& round) {
+  const json entered = Do({"note", "add", "S001", "--text", "first " + round});
+  return {{"note", "correct", entered.at("id"), "--text", "noted " + round, "--reason", "misread"},
+          Shows({"note", "list"}, "noted " + round)};
+}
+Command KilledStudy::CloseQuery(const std::string& round) {
+  const json asked = Do({"query", "open", "S001", "--text", "to close " + round});
+  return {{"query", "close", asked.at("id"), "--text", "closed " + round}, {}};
+}
+Command KilledStudy::ReopenQuery(const std::string& round) {
+  const json asked = Do({"query", "open", "S001", "--text", "again " + round});
+  Do({"query", "close", asked.at("id"), "--text", "too early"});
+  return {{"query", "reopen", asked.at("id"), "--text", "not yet"}, Shows({"query", "list"}, "again " + round)};
+}
+Command KilledStudy::ChangeIdentityPassphrase(const std::string&) {
+  // The same one again: whether the kill came before or after, the file opens with it.
+  return {{"identity", "passphrase", "--passphrase-file", Path("key.txt"), "--new-passphrase-file", Path("key.txt")},
+          {}};
 }
 Command KilledStudy::SetIdentity(const std::string&) {
   return {{"identity", "set", "S001", "--from", Path("person.json"), "--passphrase-file", Path("key.txt")}, {}};

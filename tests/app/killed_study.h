@@ -76,6 +76,12 @@ class KilledStudy {
   Command Restore(const std::string& round);
   Command Repair(const std::string& round);
   Command SetIdentity(const std::string& round);
+  Command AddSite(const std::string& round);
+  Command CorrectTreatment(const std::string& round);
+  Command CorrectNote(const std::string& round);
+  Command CloseQuery(const std::string& round);
+  Command ReopenQuery(const std::string& round);
+  Command ChangeIdentityPassphrase(const std::string& round);
 
   std::string Photo(const std::string& name) const;
   std::string WriteOutline(const std::string& round);
