@@ -5,6 +5,7 @@
 
 #include "app/io/colour_bar.h"
 #include "app/io/files.h"
+#include "app/wound_view.h"
 #include "report/drawing.h"
 #include "report/picture.h"
 
@@ -119,10 +120,12 @@ Result<std::vector<std::string>> WriteWoundPictures(const fs::path& folder, cons
   fs::create_directories(folder, failed);
   if (failed) return Fail(ErrorCode::kIo, "cannot make the folder " + folder.string() + ": " + failed.message());
   ImageRgb photo = Photo(surface, maps), depth = DepthPicture(maps);
+  const ImageRgb view = ViewOfWound(maps, photo);
   DrawOutline(outline, maps, photo);
   DrawOutline(outline, maps, depth);
   std::vector<std::string> written;
-  for (const auto& [name, picture] : {std::pair{"boundary.png", &photo}, std::pair{"depth.png", &depth}}) {
+  for (const auto& [name, picture] :
+       {std::pair<const char*, const ImageRgb*>{"boundary.png", &photo}, {"depth.png", &depth}, {"view.png", &view}}) {
     const auto bytes = report::EncodePng(*picture);
     if (!bytes) return Fail(bytes.error());
     if (Status done = WriteFile(folder / name, *bytes); !done) return Fail(done.error());

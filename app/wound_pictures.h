@@ -1,4 +1,5 @@
-// Pictures of one wound: the photograph with the boundary, the depth map on a fixed scale, and two sections.
+// Pictures of one wound: the photograph with the boundary, the depth map on a fixed scale, a view of the shaded surface
+// under its virtual skin, and two sections.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +13,8 @@
 
 namespace striae::app {
 
-/// Writes boundary.png, depth.png (0 to 15 mm, whatever the wound: pictures of visits can be laid side by side) and
-/// sections.svg into `folder`, which is made; the same input gives the same bytes. Returns their paths.
+/// Writes boundary.png, depth.png (0 to 15 mm, whatever the wound: pictures of visits can be laid side by side),
+/// view.png and sections.svg into `folder`, which is made; the same input gives the same bytes. Returns their paths.
 Result<std::vector<std::string>> WriteWoundPictures(const std::filesystem::path& folder, const Surface& surface,
                                                     const Outline& outline, const wound::WoundMaps& maps);
 

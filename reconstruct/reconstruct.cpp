@@ -203,6 +203,7 @@ Result<SensorReconstruction> ReconstructOnSensor(Photograph photograph, const Ca
       std::min(1.0, static_cast<double>(out.surface.points()) / static_cast<double>(std::max<std::size_t>(1, field)));
   TellOfCalibration(calibration, out);
   CollectWarnings(phase->saturated_share, out);
+  out.surface.comments.push_back("carrier period px " + std::to_string(out.carrier_period_px));
   return out;
 }
 

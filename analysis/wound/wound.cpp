@@ -10,6 +10,7 @@
 #include "analysis/wound/detail/quantities.h"
 #include "analysis/wound/detail/report.h"
 #include "analysis/wound/detail/scene.h"
+#include "analysis/wound/detail/stale.h"
 #include "analysis/wound/detail/swelling.h"
 
 namespace striae::wound {
@@ -21,8 +22,8 @@ constexpr double kProudNoise = 3;     // tissue above the skin counts from this 
 Status CheckOptions(const Options& o) {
   const bool positive = o.cell_mm > 0 && o.margin_mm >= 0 && o.ring_width_mm > 0 && o.smoothing_mm >= 0 &&
                         o.perimeter_step_mm > 0 && o.max_ring_slope_deg > 0 && o.max_ring_slope_deg < 90 &&
-                        o.outline_sd_mm >= 0 && o.scale_relative_sd >= 0 && o.wall_sd_mm >= 0 && o.bridge_mm >= 0 &&
-                        o.radial_trend_mm > 0;
+                        o.outline_sd_mm >= 0 && o.scale_relative_sd >= 0 && o.wall_sd_mm >= 0 && o.rim_share >= 0 &&
+                        o.bridge_mm >= 0 && o.radial_trend_mm > 0;
   const bool gaps =
       !o.gaps_mm.empty() && o.gaps_mm.front() >= o.margin_mm && std::is_sorted(o.gaps_mm.begin(), o.gaps_mm.end());
   if (positive && gaps) return {};
@@ -37,6 +38,13 @@ double WideReach(const Scene& scene, const Options& options) {
   return std::max(45.0, across_mm + 2 * options.gaps_mm.front() + options.ring_width_mm + 6);
 }
 
+// The Fourier stage's kernel on the skin: stripes of so many pixels, which are so far apart there.
+double ResolutionOf(const Surface& surface, double pixel_mm, const Options& options) {
+  constexpr double kWindow = 0.9;  // relative width of the Hann window
+  const auto period_px = CarrierPeriodOf(surface);
+  return period_px ? *period_px * pixel_mm / (std::sqrt(8.0) * kWindow) : options.resolution_mm;
+}
+
 nlohmann::json NullsAsJson(const IntactSkin& intact, std::size_t model) {
   nlohmann::json nulls = nlohmann::json::array();
   for (const NullWound& null : intact.wounds) {
@@ -48,7 +56,7 @@ nlohmann::json NullsAsJson(const IntactSkin& intact, std::size_t model) {
 
 }  // namespace
 
-std::string_view MethodVersion() { return "wound/2"; }
+std::string_view MethodVersion() { return "wound/3"; }
 
 Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, const Options& options,
                                WoundMaps* maps) {
@@ -83,7 +91,8 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   const auto smoothed = SmoothedHeights(scene, a.skin, options.smoothing_mm, a.ring.gap_mm + a.ring.width_mm);
   findings.noise_mm = SmoothedRingSd(scene, smoothed, a.ring);
   findings.depths = MeasureDepths(scene, bed, a.skin, smoothed, kProudNoise * findings.noise_mm);
-  findings.deepest = FindDeepest(scene, bed, a.skin, findings.depths, options.deepest_mm, options.resolution_mm);
+  findings.resolution_mm = ResolutionOf(surface, scene.patch.pixel_mm, options);
+  findings.deepest = FindDeepest(scene, bed, a.skin, findings.depths, options.deepest_mm, findings.resolution_mm);
   findings.boundary = MeasureBoundary(scene.outline, a.skin, options.perimeter_step_mm, scene.patch.cell_mm(),
                                       kLineSmoothing * plus->line.roughness);
   findings.line = plus->line;
@@ -121,6 +130,7 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
                                  {"fit_noise_mm", findings.deepest.noise_mm}};
   report.details["outline_roughness_mm"] = plus->line.roughness;
   report.details["hole_share"] = plus->hole_share;
+  report.details["resolution_mm"] = findings.resolution_mm;
   report.details["cell_mm"] = scene.patch.cell_mm();
   report.details["length_axis"] = "longest";
   return report;

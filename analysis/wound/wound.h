@@ -20,19 +20,22 @@ struct Options {
   /// Where the ring of healthy skin may begin, outwards from the line; the first without a radial trend is taken.
   std::vector<double> gaps_mm = {2, 3, 4, 6, 8, 10, 12, 15, 18};
   double ring_width_mm = 12;
-  double radial_trend_mm = 0.05;   ///< step between the ring's inner edge and its middle that counts as oedema
-  double null_cell_mm = 1.0;       ///< cells for looking at intact skin beside the wound
-  double smoothing_mm = 0.5;       ///< sd of the Gaussian before depth and bed area; volume stays unsmoothed
-  double deepest_mm = 1.25;        ///< radius of the surface fitted around the deepest point
-  double resolution_mm = 0.75;     /**< sd of the reconstruction's kernel: T / (sqrt(8) w) for a Hann window of relative
-                                        width w = 0.9 and stripes T = 1.9 mm apart on the skin */
+  double radial_trend_mm = 0.05;  ///< step between the ring's inner edge and its middle that counts as oedema
+  double null_cell_mm = 1.0;      ///< cells for looking at intact skin beside the wound
+  double smoothing_mm = 0.5;      ///< sd of the Gaussian before depth and bed area; volume stays unsmoothed
+  double deepest_mm = 1.25;       ///< radius of the surface fitted around the deepest point
+  /// Sd of the reconstruction's kernel where the surface does not say its carrier period: stripes 1.9 mm apart. Else
+  /// T / (sqrt(8) w) for a Hann window of relative width w = 0.9 and stripes T apart on the skin.
+  double resolution_mm = 0.75;
   double perimeter_step_mm = 1.0;  ///< the outline is resampled at this step and draped on the virtual skin
   double max_ring_slope_deg = 60;  ///< steeper skin (against the ring's mean plane) cannot be continued by polynomials
   double outline_sd_mm = 0.05;     /**< standard uncertainty of the drawn line's place, as a common offset: half a
                                         pixel at 1 m. The line's own shakes are added; what an operator would take for
                                         the edge on another day is not in it */
-  double wall_sd_mm = 0.025;  ///< standard uncertainty of the place of a wound's walls: the Fourier stage rounds them
-  double bridge_mm = 2;       ///< holes inside the wound are bridged up to this far from a measured point
+  double wall_sd_mm = 0.01;  ///< standard uncertainty of the place of a wound's walls: the Fourier stage rounds them
+  double rim_share = 0.18; /**< standard uncertainty of the rim's cross-section as a share of the kernel's variance: the
+                                kernel weighs by light, and skin reflects more than the bed beside it */
+  double bridge_mm = 2;    ///< holes inside the wound are bridged up to this far from a measured point
   double scale_relative_sd = 0.001;  ///< standard uncertainty of the surface's scale (calibration)
 };
 
@@ -45,8 +48,11 @@ struct WoundSection {
 struct WoundMaps {
   int col0_px = 0, row0_px = 0, cell_px = 1;  ///< sensor pixels of the map's first cell and of a cell's side
   double cell_mm = 0;
-  ImageF depth_mm;               ///< below the virtual skin (above it negative); NaN where nothing was measured
-  WoundSection longest, across;  ///< along the longest axis, and across its middle
+  ImageF depth_mm;            ///< below the virtual skin (above it negative); NaN where nothing was measured
+  ImageF u_mm, v_mm, bed_mm;  ///< the same cells in the wound's frame, w towards the camera; NaN likewise
+  ImageF skin_mm;             ///< height of the virtual skin there
+  std::vector<Eigen::Vector3d> boundary_mm;  ///< the line draped on the virtual skin, same frame
+  WoundSection longest, across;              ///< along the longest axis, and across its middle
 };
 
 /// Version of the method: changes whenever a number may change.

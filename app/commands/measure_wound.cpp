@@ -84,7 +84,7 @@ void AddCommand_measure_wound(CLI::App& root, Context& context) {
   command->add_option("--outline", options->outline, "Outline of the wound in sensor pixels (JSON, LabelMe too)")
       ->required();
   command->add_option("--pictures", options->pictures,
-                      "Folder for boundary.png, depth.png (0 to 15 mm) and sections.svg");
+                      "Folder for boundary.png, depth.png (0 to 15 mm), view.png and sections.svg");
   OnRun(command, context, [options](Context& c) { return Run(*options, c); });
 }
 

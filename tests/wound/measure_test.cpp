@@ -130,6 +130,38 @@ TEST(Outside, TheLineIsHarmless) {
   }
 }
 
+TEST(WoundResolution, IsThatOfTheSurfacesOwnStripes) {
+  const Body body{.radius_mm = 60, .crater_radius_mm = 10, .crater_depth_mm = 4};
+  Surface surface = Observe(body, kCamera);
+  const Outline circle = CircleOn(body, kCamera, 10);
+  EXPECT_EQ(MeasureOrFail(surface, circle).details["resolution_mm"], Options{}.resolution_mm);
+  surface.comments = {"carrier period px 6.0"};
+  // Stripes 6 px of 1/3 mm apart, Hann window of relative width 0.9; pixels on the slopes are a few per cent longer.
+  const double expected = 6 / 3.0 / (std::sqrt(8.0) * 0.9);
+  EXPECT_NEAR(MeasureOrFail(surface, circle).details["resolution_mm"].get<double>(), expected, 0.07 * expected);
+  surface.comments = {"carrier period px none"};
+  EXPECT_EQ(MeasureOrFail(surface, circle).details["resolution_mm"], Options{}.resolution_mm);
+}
+
+TEST(WoundMaps, HoldTheBedTheSkinAndTheLineInOneFrame) {
+  const Body body{.radius_mm = 60, .crater_radius_mm = 10, .crater_depth_mm = 4};
+  WoundMaps maps;
+  ASSERT_TRUE(Measure(Observe(body, kCamera), CircleOn(body, kCamera, 10), {}, &maps));
+  double deepest = 0;
+  for (int j = 0; j < maps.depth_mm.height(); ++j) {
+    for (int i = 0; i < maps.depth_mm.width(); ++i) {
+      if (!std::isfinite(maps.depth_mm(i, j))) continue;
+      EXPECT_NEAR(maps.skin_mm(i, j) - maps.bed_mm(i, j), maps.depth_mm(i, j), 1e-3);
+      deepest = std::max(deepest, static_cast<double>(maps.depth_mm(i, j)));
+    }
+  }
+  EXPECT_NEAR(deepest, 4, 0.1);  // the cells' own size; no noise
+  ASSERT_GT(maps.boundary_mm.size(), 50U);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& p : maps.boundary_mm) middle += p / static_cast<double>(maps.boundary_mm.size());
+  for (const auto& p : maps.boundary_mm) EXPECT_NEAR((p - middle).norm(), 10, 0.5);  // the limb bends 0.8 mm away
+}
+
 RC_GTEST_PROP(WoundMeasurement, DoesNotDependOnHowTheWorldIsTurned, ()) {
   static const Body kBody{.radius_mm = 60, .crater_radius_mm = 10, .crater_depth_mm = 4};
   static const Surface kSurface = Observe(kBody, {.width = 190, .height = 190, .focal_px = 1300});

@@ -10,9 +10,10 @@ namespace {
 
 constexpr double kComparableFit = 1.2;       // a model whose ring rms is worse than this does not fit, and says nothing
 constexpr double kComparableScore = 1.5;     // nor one that continues intact skin worse than this
-constexpr double kBridgeRelativeSd = 0.1;    // of the volume over bridged holes
+constexpr double kBridgeRelativeSd = 0.15;   // of the volume over bridged holes
 constexpr double kBedAreaRelativeSd = 0.02;  // smoothing rounds the rim
 constexpr double kDepthRelativeSd = 0.005;   // the Fourier window rings at steep walls
+constexpr double kDepthShare = 0.02;         // of the kernel's sd: what it leaves of an uneven bed's deepest place
 
 double RootOfSquares(std::initializer_list<double> parts) {
   double sum = 0;
@@ -32,8 +33,8 @@ struct Alternatives {
   double volume_sd_mm3 = 0, depth_sd_mm = 0;
 };
 
-Alternatives CompareModels(const Attempt& a, const ModelChoice& choice, const Bed& bed,
-                           const Eigen::Vector2d& deepest) {
+Alternatives CompareModels(const Attempt& a, const ModelChoice& choice, const Bed& bed, const Eigen::Vector2d& deepest,
+                           bool settled) {
   Alternatives result;
   const double volume = PrismSum(bed, HeightsAbove(bed, a.skin));
   const double height = a.skin.Height(deepest.x(), deepest.y());
@@ -48,9 +49,10 @@ Alternatives CompareModels(const Attempt& a, const ModelChoice& choice, const Be
                             {"net_volume_ml", other / 1000},
                             {"ring_rms_mm", skin.rms_mm},
                             {"score_mm", score ? nlohmann::json(*score) : nlohmann::json()}});
-    // A model says something about this wound if it fits the ring, and intact skin, about as well.
+    // A model says something about this wound if it fits the ring, and intact skin, about as well. Where the skin bends
+    // as no quadric does, intact skin beside the wound is no judge of the skin across it.
     if (skin.rms_mm > kComparableFit * a.skin.rms_mm + 1e-6 * a.skin.radius_mm) continue;
-    if (!score || *score > kComparableScore * best_mm + 0.01) continue;
+    if (settled && (!score || *score > kComparableScore * best_mm + 0.01)) continue;
     volume_gap = std::max(volume_gap, std::abs(other - volume));
     height_gap = std::max(height_gap, std::abs(skin.Height(deepest.x(), deepest.y()) - height));
   }
@@ -117,7 +119,7 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
   const Attempt& a = choice.chosen;
   const double volume = f.net_mm3 + f.depths.proud_all_mm3, area = f.boundary.area_mm2;
   const SkinCovariance covariance = CovarianceOf(a.skin, a.ring, a.weights, options.ring_width_mm / 2);
-  const Alternatives models = CompareModels(a, model, bed, f.depths.deepest);
+  const Alternatives models = CompareModels(a, model, bed, f.depths.deepest, choice.settled);
   const double blocks_mm2 = std::sqrt(f.boundary.plane_area_mm2) * covariance.block_mm;
 
   VolumeParts u;
@@ -127,7 +129,8 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
   u.nulls = intact.Rms(model.model, 2).value_or(0) * f.boundary.area_mm2;
   u.gap = SdOf(f.net_mm3, choice.other_gap_volumes_mm3);
   u.outline = OutlinePart(scene, a.skin, f.line.roughness, options);
-  u.walls = options.wall_sd_mm * f.boundary.perimeter_mm * f.depths.p95_mm;
+  u.walls = f.boundary.perimeter_mm * RootOfSquares({options.wall_sd_mm * f.depths.p95_mm,
+                                                     options.rim_share * f.resolution_mm * f.resolution_mm});
   u.bridges = kBridgeRelativeSd * f.depths.bridged_mm3;
   u.scale = 3 * options.scale_relative_sd * volume;
   if (std::abs(volume) < 2 * u.Sum()) flags.volume.push_back("not distinguishable from no wound");
@@ -146,8 +149,9 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
                       RootOfSquares({figures.area.uncertainty * bed_area / area, kBedAreaRelativeSd * bed_area})};
   const double u_skin = RootOfSquares({HeightSd(a.skin, covariance, f.depths.deepest), models.depth_sd_mm, f.noise_mm});
   const auto with_sd = [&](double depth) { return Figure{depth, RootOfSquares({u_skin, kDepthRelativeSd * depth})}; };
-  figures.depth_max = {f.deepest.depth_mm, RootOfSquares({u_skin, f.deepest.noise_mm, f.deepest.correction_mm / 2,
-                                                          kDepthRelativeSd * f.deepest.depth_mm})};
+  figures.depth_max = {f.deepest.depth_mm,
+                       RootOfSquares({u_skin, f.deepest.noise_mm, f.deepest.correction_mm / 2,
+                                      kDepthShare * f.resolution_mm, kDepthRelativeSd * f.deepest.depth_mm})};
   figures.depth_p95 = with_sd(f.depths.p95_mm);
   figures.depth_mean = {volume / area,
                         RootOfSquares({u.Sum() / area, volume / area * figures.area.uncertainty / area})};

@@ -15,8 +15,9 @@ namespace striae::wound {
 
 /// Everything that was measured, before uncertainties.
 struct Findings {
-  double net_mm3 = 0;   ///< under the skin minus above it, with the margin
-  double noise_mm = 0;  ///< robust sd of the smoothed ring about the skin
+  double net_mm3 = 0;        ///< under the skin minus above it, with the margin
+  double noise_mm = 0;       ///< robust sd of the smoothed ring about the skin
+  double resolution_mm = 0;  ///< sd of the reconstruction's kernel on the skin
   Depths depths;
   Deepest deepest;
   LineStudy line;

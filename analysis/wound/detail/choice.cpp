@@ -12,7 +12,8 @@ constexpr double kLeastCoverage = 0.6, kGoodCoverage = 0.9;
 constexpr double kMostEmptySectors = 0.25;
 constexpr double kMostSteep = 0.1, kMostOutliers = 0.3, kManyOutliers = 0.1;
 constexpr double kTrendT = 3;
-constexpr double kFades = 0.7;  // of the step beside the line that is left further out where it is swelling
+constexpr double kNoQuadric = 5;  // times q+c4's rms: the step is the body's shape, of which a quartic takes care
+constexpr double kFades = 0.7;    // of the step beside the line that is left further out where it is swelling
 constexpr double kLeastSwelling_mm = 0.1, kSwellingStep_mm = 0.05;
 
 /// The same wound in small cells near it and in large ones far out.
@@ -27,7 +28,9 @@ std::optional<Attempt> Try(const Scenes& scenes, double gap_mm, double width_mm)
   attempt.weights = WeighRing(attempt.ring.points);
   attempt.skin = FitSkin(SkinModel::kQuadricC4, attempt.ring.points, attempt.weights);
   // Against a stiff skin: a quartic bends with the swelling and hides it.
-  attempt.trend = FindRadialTrend(attempt.ring, FitSkin(SkinModel::kQuadric, attempt.ring.points, attempt.weights));
+  const Skin stiff = FitSkin(SkinModel::kQuadric, attempt.ring.points, attempt.weights);
+  attempt.trend = FindRadialTrend(attempt.ring, stiff);
+  attempt.quadric_rms_mm = stiff.rms_mm;
   return attempt;
 }
 
@@ -96,7 +99,8 @@ Result<Choice> ChooseRing(const Scenes& scenes, const Bed& bed, double width_mm,
   if (swelling.ends_mm > 0) gaps = {options.gaps_mm.front(), swelling.ends_mm, swelling.ends_mm + 2};
   std::size_t at = 0;
   const Attempt beside = choice.chosen;
-  while (!choice.settled && ++at < gaps.size()) {
+  const bool shaped = !swelling.looked && beside.quadric_rms_mm > kNoQuadric * beside.skin.rms_mm;
+  while (!choice.settled && !shaped && ++at < gaps.size()) {
     if (gaps[at] <= choice.first_gap_mm) continue;
     auto attempt = Try(scenes, gaps[at], width_mm);
     // Skin further out that has turned away says less about the wound's place than uneven skin beside it.

@@ -18,6 +18,7 @@ struct Attempt {
   RingWeights weights;
   Skin skin;
   RadialTrend trend;
+  double quadric_rms_mm = 0;  ///< of the ring about the quadric that the trend is seen against
 };
 
 /// The chosen ring, and what the neighbouring gaps would have given.

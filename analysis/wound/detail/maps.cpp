@@ -44,15 +44,23 @@ WoundMaps DrawMaps(const Scene& scene, const Skin& skin, const Boundary& boundar
   maps.col0_px = patch.col0_px;
   maps.row0_px = patch.row0_px;
   maps.cell_mm = patch.cell_mm();
-  maps.depth_mm = ImageF(patch.width, patch.height, std::numeric_limits<float>::quiet_NaN());
+  for (ImageF* image : {&maps.depth_mm, &maps.u_mm, &maps.v_mm, &maps.bed_mm, &maps.skin_mm}) {
+    *image = ImageF(patch.width, patch.height, std::numeric_limits<float>::quiet_NaN());
+  }
   for (int j = 0; j < patch.height; ++j) {
     for (int i = 0; i < patch.width; ++i) {
       const std::size_t c = patch.At(i, j);
       if (!(scene.place[c].distance <= reach_mm)) continue;
       const auto& p = scene.local[c];
-      maps.depth_mm(i, j) = static_cast<float>(skin.Height(p.x(), p.y()) - p.z());
+      const double height = skin.Height(p.x(), p.y());
+      maps.depth_mm(i, j) = static_cast<float>(height - p.z());
+      maps.u_mm(i, j) = static_cast<float>(p.x());
+      maps.v_mm(i, j) = static_cast<float>(p.y());
+      maps.bed_mm(i, j) = static_cast<float>(p.z());
+      maps.skin_mm(i, j) = static_cast<float>(height);
     }
   }
+  for (const auto& p : scene.outline) maps.boundary_mm.emplace_back(p.x(), p.y(), skin.Height(p.x(), p.y()));
   const Eigen::Vector2d along = (boundary.axis_to - boundary.axis_from).normalized(), across(-along.y(), along.x());
   const Eigen::Vector2d middle = (boundary.axis_from + boundary.axis_to) / 2;
   const double half = boundary.width_mm / 2 + beyond_mm;

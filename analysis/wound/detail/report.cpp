@@ -92,6 +92,7 @@ nlohmann::json ToJson(const Options& options) {
           {"max_ring_slope_deg", options.max_ring_slope_deg},
           {"outline_sd_mm", options.outline_sd_mm},
           {"wall_sd_mm", options.wall_sd_mm},
+          {"rim_share", options.rim_share},
           {"bridge_mm", options.bridge_mm},
           {"scale_relative_sd", options.scale_relative_sd}};
 }

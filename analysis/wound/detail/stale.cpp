@@ -1,5 +1,6 @@
 #include "analysis/wound/detail/stale.h"
 
+#include <cstdlib>
 #include <string_view>
 
 namespace striae::wound {
@@ -10,6 +11,16 @@ std::optional<Sha256> PhotographOf(const Surface& surface) {
     if (!comment.starts_with(kStart)) continue;
     const auto sha256 = Sha256::Parse(std::string_view(comment).substr(kStart.size()));
     if (sha256) return *sha256;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> CarrierPeriodOf(const Surface& surface) {
+  constexpr std::string_view kStart = "carrier period px ";
+  for (const std::string& comment : surface.comments) {
+    if (!comment.starts_with(kStart)) continue;
+    const double period = std::strtod(comment.c_str() + kStart.size(), nullptr);
+    if (period > 2 && period < 1000) return period;
   }
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// Which photograph a surface was made from, as its comments say.
+// What a surface's comments say about the photograph that it was made from.
 #pragma once
 
 #include <optional>
@@ -10,5 +10,7 @@ namespace striae::wound {
 
 /// From the comment "photograph sha256 ..."; nothing where there is none.
 std::optional<Sha256> PhotographOf(const Surface& surface);
+/// From the comment "carrier period px ...", sensor pixels a stripe; nothing where there is none.
+std::optional<double> CarrierPeriodOf(const Surface& surface);
 
 }  // namespace striae::wound

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kWidth = 14;
 constexpr double kLeastCoverage = 0.5, kMostEmptySectors = 0.4;
-constexpr double kMostMisfit_mm = 0.06, kMostMisfitShare = 0.1;  // of the outer skin about its quadric
+constexpr double kMostMisfit_mm = 0.06, kMostMisfitShare = 0.1, kMostMisfitEver_mm = 0.2;  // of the outer skin
 constexpr int kSectors = 24;
 
 double Median(std::vector<double>& values) {
@@ -67,7 +67,8 @@ Swelling FindSwelling(const Scene& coarse, double least_mm, double threshold_mm)
     found.height_mm = MeanOver(found.profile_mm, 2, 5);  // the first millimetres are the line's own doubt
     double misfit = 0;
     for (std::size_t k = at; k < found.profile_mm.size(); ++k) misfit = std::max(misfit, std::abs(found.profile_mm[k]));
-    found.looked = misfit < std::max(kMostMisfit_mm, kMostMisfitShare * found.height_mm);
+    const double share_mm = std::min(kMostMisfitShare * found.height_mm, kMostMisfitEver_mm);
+    found.looked = misfit < std::max(kMostMisfit_mm, share_mm);
     if (std::abs(MeanOver(found.profile_mm, at - 4, at)) < threshold_mm) break;
   }
   if (!found.looked) return found;
