@@ -62,14 +62,16 @@ struct BlockMemory {
         phase(Count(length)),
         amplitude(Count(length)),
         background(Count(length)),
-        mask(Count(length)) {}
+        stripes(Count(length)),
+        mask(Count(length)),
+        misfit(Count(length)) {}
   static std::size_t Count(int length) { return static_cast<std::size_t>(length) * kLanes; }
-  LineAnalysis::Signal Signal() { return {phase.data(), amplitude.data(), background.data()}; }
+  LineAnalysis::Signal Signal() { return {phase.data(), amplitude.data(), background.data(), stripes.data()}; }
 
   LineAnalysis::Scratch scratch;
   Lanes<float> with_halo;
-  Lanes<float> light, phase, amplitude, background, groups, maximum, falling;
-  Lanes<std::uint8_t> mask;
+  Lanes<float> light, phase, amplitude, background, stripes, groups, maximum, falling;
+  Lanes<std::uint8_t> mask, misfit;
   Lanes<std::uint16_t> runs;
 };
 
@@ -121,26 +123,36 @@ std::vector<Lanes<float>> SampleBlocks(const LightReader& reader, const LineLayo
   return blocks;
 }
 
-/// Upper quartile of the modulation over the sampled pixels whose amplitude is above the noise.
-float WellLitModulation(const LineAnalysis& analysis, const std::vector<Lanes<float>>& blocks, float least_amplitude,
-                        BlockMemory& memory) {
+/// Of the sampled pixels whose amplitude is above the noise.
+struct Typical {
+  float modulation = 0;     ///< upper quartile
+  std::uint8_t misfit = 0;  ///< median, as LaneMisfit keeps it
+};
+
+Typical TypicalOf(const LineAnalysis& analysis, const std::vector<Lanes<float>>& blocks, float least_amplitude,
+                  BlockMemory& memory) {
   constexpr std::size_t kStep = 3;  // of the sampled pixels
   std::vector<float> modulations;
+  std::vector<std::uint8_t> misfits;
   for (const Lanes<float>& light : blocks) {
     analysis.Background(light.data(), memory.background.data(), memory.scratch);
     analysis.Stripes(light.data(), memory.Signal(), memory.scratch);
+    analysis.Misfit(light.data(), memory.Signal(), memory.misfit.data(), memory.scratch);
     for (std::size_t i = 0; i < light.size(); i += kStep) {
-      if (memory.amplitude[i] > 3 * least_amplitude)
-        modulations.push_back(memory.amplitude[i] / std::max(memory.background[i], 1e-6F));
+      if (memory.amplitude[i] <= 3 * least_amplitude) continue;
+      modulations.push_back(memory.amplitude[i] / std::max(memory.background[i], 1e-6F));
+      misfits.push_back(memory.misfit[i]);
     }
   }
-  if (modulations.empty()) return 0;
+  if (modulations.empty()) return {};
   const auto quartile = modulations.begin() + static_cast<long>(3 * modulations.size() / 4);
   std::nth_element(modulations.begin(), quartile, modulations.end());
-  return *quartile;
+  const auto middle = misfits.begin() + static_cast<long>(misfits.size() / 2);
+  std::nth_element(misfits.begin(), middle, misfits.end());
+  return {*quartile, *middle};
 }
 
-/// Fills `result.noise` as well.
+/// Fills the result's `noise` and `most_misfit` as well.
 detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const LightReader& reader, const LineLayout& layout,
                             const PhaseOptions& options, PhaseResult& result) {
   BlockMemory memory(analysis, layout.length());
@@ -151,13 +163,16 @@ detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const LightReader& rea
   constexpr double kStepNearBlack = 1 / (255 * 12.92);
   limits.least_amplitude =
       static_cast<float>(std::max(result.noise / options.largest_phase_noise, reader.linear() ? 1e-5 : kStepNearBlack));
-  const float well_lit = WellLitModulation(analysis, blocks, limits.least_amplitude, memory);
-  limits.least_modulation = std::max(static_cast<float>(options.least_modulation),
-                                     static_cast<float>(options.least_modulation_share) * std::min(1.0F, well_lit));
+  const Typical typical = TypicalOf(analysis, blocks, limits.least_amplitude, memory);
+  limits.least_modulation =
+      std::max(static_cast<float>(options.least_modulation),
+               static_cast<float>(options.least_modulation_share) * std::min(1.0F, typical.modulation));
   limits.most_modulation = std::max(static_cast<float>(options.most_modulation),
-                                    static_cast<float>(options.most_modulation_share) * well_lit);
+                                    static_cast<float>(options.most_modulation_share) * typical.modulation);
   limits.least_share = static_cast<float>(options.least_plateau_share);
-  limits.least_share_between = static_cast<float>(options.least_share_between);
+  // A misfit is kept as its root: of `times` the typical one by sqrt(times) as much.
+  result.most_misfit = static_cast<std::uint8_t>(std::min(
+      255.0, std::max(255 * std::sqrt(options.most_misfit), std::sqrt(options.most_misfit_times) * typical.misfit)));
   limits.rim_px = static_cast<int>(std::lround(options.rim_periods * result.carrier_period_px));
   limits.least_run_px = static_cast<int>(std::lround(options.least_run_periods * result.carrier_period_px));
   return limits;
@@ -177,16 +192,18 @@ void AnalyseBlock(const LineAnalysis& analysis, const detail::MaskLimits& limits
     std::fill(m.phase.begin(), m.phase.end(), 0.0F);
     std::fill(m.amplitude.begin(), m.amplitude.end(), 0.0F);
     std::fill(m.mask.begin(), m.mask.end(), std::uint8_t{0});
+    std::fill(m.misfit.begin(), m.misfit.end(), std::uint8_t{255});
     return;
   }
   analysis.Stripes(m.light.data(), m.Signal(), m.scratch);
+  analysis.Misfit(m.light.data(), m.Signal(), m.misfit.data(), m.scratch);
   const int groups = (length + plateau.group - 1) / plateau.group;
   m.groups.resize(BlockMemory::Count(groups));
-  m.maximum.resize(BlockMemory::Count(groups + 2 * plateau.reach));
+  m.maximum.resize(BlockMemory::Count(groups));
   detail::GroupMaximum(m.amplitude.data(), length, plateau.group, m.groups.data());
   detail::LaneMaximum(m.groups.data(), groups, plateau.reach, m.maximum.data(), m.falling);
-  detail::JudgeLanes(m.amplitude.data(), m.background.data(), m.maximum.data(), length, plateau.group, plateau.reach,
-                     limits, m.mask.data());
+  detail::JudgeLanes(m.amplitude.data(), m.background.data(), m.maximum.data(), length, plateau.group, limits,
+                     m.mask.data());
   detail::DropShortRuns(m.mask.data(), length, limits.least_run_px, m.runs);
   detail::TrimRuns(m.mask.data(), length, limits.rim_px, m.runs);
 }
@@ -211,6 +228,7 @@ void AnalyseBlocks(const LightReader& reader, const LineLayout& layout, const Li
           layout.Store(m.amplitude.data(), block, result.amplitude);
           layout.Store(m.background.data(), block, result.background);
           layout.Store(m.mask.data(), block, result.mask);
+          layout.Store(m.misfit.data(), block, result.misfit);
         }
       },
       1);
@@ -241,9 +259,9 @@ Result<PhaseResult> Measure(const Source& source, const PhaseOptions& options) {
   ImageF own = in_place ? ImageF() : ImageF::Unset(width, height);
   ImageF& wrapped = in_place ? *source.spare : own;
   for (ImageF* image : {&result.amplitude, &result.background}) *image = ImageF::Unset(width, height);
-  result.mask = Mask::Unset(width, height);
+  for (Mask* image : {&result.mask, &result.misfit}) *image = Mask::Unset(width, height);
   for (ImageF* image : {&wrapped, &result.amplitude, &result.background}) detail::TouchPages(*image);
-  detail::TouchPages(result.mask);
+  for (Mask* image : {&result.mask, &result.misfit}) detail::TouchPages(*image);
   AnalyseBlocks(reader, chosen->layout, analysis, limits, wrapped, result);
 
   detail::CutSteps(wrapped, result.mask, kStep_rad);
@@ -265,6 +283,14 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
 Result<PhaseResult> MeasurePhase(Photograph&& photograph, const PhaseOptions& options) {
   ImageF luminance = std::move(photograph.luminance);
   return Measure({luminance, photograph.linear, photograph.saturation_level, &luminance}, options);
+}
+
+Mask MeasuredMask(const PhaseResult& phase) {
+  Mask measured = Mask::Unset(phase.mask.width(), phase.mask.height());
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    measured.pixels()[i] = phase.mask.pixels()[i] != 0 && phase.FitsAt(i) ? 1 : 0;
+  }
+  return measured;
 }
 
 }  // namespace striae::reconstruct

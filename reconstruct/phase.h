@@ -23,11 +23,13 @@ struct PhaseOptions {
   /// Smoothing along the stripes (standard deviation of a Gaussian, in periods): with the Hann window it makes a window
   /// in two dimensions. Across the stripes the window reaches much farther, so that no detail is lost.
   double smoothing_along = 0;
+  /// Most of the light that the stripes may leave unexplained (PhaseResult::MisfitAt): more is left at a silhouette, a
+  /// step or a fold that the window cannot follow, and the phase is off by about as much.
+  double most_misfit = 0.2;
+  /// The same against the photograph's median: noise and texture leave more everywhere.
+  double most_misfit_times = 3;
   /// Least amplitude against the local plateau (three periods along the line). At a silhouette it falls to half.
-  double least_plateau_share = 0.4;
-  /// The same where the stripes are bright again on both sides within three periods: a crater's wall or a dark logo
-  /// dims them without ending the surface.
-  double least_share_between = 0.2;
+  double least_plateau_share = 0.3;
   double least_modulation = 0.08;  ///< amplitude over background
   /// Least modulation against that of the well lit parts (upper quartile): what no stripe reaches still shows a ghost
   /// of the carrier along its outline, on dark and bright surfaces alike.
@@ -39,7 +41,7 @@ struct PhaseOptions {
   double least_run_periods = 1.0;  ///< along a line across the stripes: a step of brightness gives a shorter ghost
   /// Taken off where the stripes end, along the line: there the window sees more dark than stripes, and the errors are
   /// three to ten times those further in.
-  double rim_periods = 0.125;
+  double rim_periods = 0.06;
   double largest_phase_noise = 0.35;  ///< rad, standard deviation expected from the sensor's noise
   int least_region_px = 400;          ///< smaller specks are dropped
 };
@@ -48,17 +50,25 @@ struct PhaseResult {
   StripeDirection direction = StripeDirection::kHorizontal;
   double carrier_period_px = 0, carrier_prominence = 0;
   /// All of the photograph's size, sensor orientation.
-  Unwrapped unwrapped;  ///< increases with the row (horizontal stripes) or the column (vertical)
-  ImageF amplitude;     ///< of the fundamental, linear light, full scale 1
-  ImageF background;    ///< local mean, linear light
-  Mask mask;
-  double noise = 0;            ///< sd of the amplitude's components; phase noise (rad) = noise / amplitude
-  double saturated_share = 0;  ///< of the pixels
+  Unwrapped unwrapped;             ///< increases with the row (horizontal stripes) or the column (vertical)
+  ImageF amplitude;                ///< of the fundamental, linear light, full scale 1
+  ImageF background;               ///< local mean, linear light
+  Mask mask;                       ///< where stripes are; what misfits among them still tells one surface from the next
+  Image<std::uint8_t> misfit;      ///< 255 sqrt(MisfitAt), at most 255
+  std::uint8_t most_misfit = 255;  ///< what is more is no measurement
+  double noise = 0;                ///< sd of the amplitude's components; phase noise (rad) = noise / amplitude
+  double saturated_share = 0;      ///< of the pixels
 
   /// Amplitude over background, 0..1, of pixel `i` (row-major).
   [[nodiscard]] float ModulationAt(std::size_t i) const {
     return Modulation(amplitude.pixels()[i], background.pixels()[i]);
   }
+  /// sqrt(1 - r^2) around pixel `i`, r being the correlation of the light with the stripes found in it: 0 to 1.
+  [[nodiscard]] float MisfitAt(std::size_t i) const {
+    const float root = static_cast<float>(misfit.pixels()[i]) / 255;
+    return root * root;
+  }
+  [[nodiscard]] bool FitsAt(std::size_t i) const { return misfit.pixels()[i] <= most_misfit; }
   static float Modulation(float amplitude, float background) {
     return std::clamp(amplitude / std::max(background, 1e-6F), 0.0F, 1.0F);
   }
@@ -68,5 +78,8 @@ struct PhaseResult {
 Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOptions& options = {});
 /// The same in the memory of the photograph's luminance, which is gone afterwards; its colour stays.
 Result<PhaseResult> MeasurePhase(Photograph&& photograph, const PhaseOptions& options = {});
+
+/// The mask without the pixels whose light does not fit: where the phase is a measurement.
+Mask MeasuredMask(const PhaseResult& phase);
 
 }  // namespace striae::reconstruct

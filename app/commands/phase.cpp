@@ -1,6 +1,8 @@
 // `striae phase`: the unwrapped phase of any fringe photograph; no calibration needed.
 #include "reconstruct/phase.h"
 
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "app/command.h"
@@ -18,12 +20,15 @@ struct Options {
   double window = reconstruct::PhaseOptions{}.window_half_width;
 };
 
-Status WriteImages(const Options& options, const reconstruct::PhaseResult& phase) {
-  const auto tiff = EncodeFloatTiff(phase.unwrapped.phase);
+Status WriteImages(const Options& options, ImageF phase, const Mask& measured) {
+  for (std::size_t i = 0; i < phase.size(); ++i) {
+    if (measured.pixels()[i] == 0) phase.pixels()[i] = std::numeric_limits<float>::quiet_NaN();
+  }
+  const auto tiff = EncodeFloatTiff(phase);
   if (!tiff) return Fail(tiff.error());
   if (Status written = WriteFile(options.out, *tiff); !written) return written;
   if (options.mask.empty()) return {};
-  const auto png = EncodeMaskPng(phase.mask);
+  const auto png = EncodeMaskPng(measured);
   if (!png) return Fail(png.error());
   return WriteFile(options.mask, *png);
 }
@@ -38,10 +43,11 @@ Status MeasurePhase(Context& context, const Options& options) {
   settings.window_half_width = options.window;
   const auto phase = reconstruct::MeasurePhase(*photograph, settings);
   if (!phase) return Fail(phase.error(), options.image.string());
-  if (Status written = WriteImages(options, *phase); !written) return written;
+  const Mask measured = reconstruct::MeasuredMask(*phase);
+  if (Status written = WriteImages(options, phase->unwrapped.phase, measured); !written) return written;
 
   std::size_t valid = 0;
-  for (const std::uint8_t m : phase->mask.pixels()) valid += m;
+  for (const std::uint8_t m : measured.pixels()) valid += m;
   const auto quality = reconstruct::JudgePhotograph(*photograph, *phase);
   for (const std::string& warning : quality.warnings) context.Note("warning: " + warning);
   const nlohmann::json document = {{"direction", ToString(phase->direction)},

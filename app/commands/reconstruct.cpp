@@ -101,7 +101,7 @@ Status WritePreviews(const fs::path& folder, const Photograph& photograph, const
       {"depth.png", [&] { return DepthPreview(surface); }},
       {"shaded.png", [&] { return ShadedPreview(surface); }},
       {"phase.png", [&] { return PhasePreview(*phase); }},
-      {"mask.png", [&] { return MaskPreview(photograph, phase->mask); }},
+      {"mask.png", [&] { return MaskPreview(photograph, reconstruct::MeasuredMask(*phase)); }},
       {"modulation.png", [&] { return ModulationPreview(*phase); }}};
   for (const auto& [name, draw] : pictures) {
     const auto png = draw();

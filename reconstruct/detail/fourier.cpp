@@ -32,17 +32,19 @@ inline float ArcTangent(float y, float x) {
 }
 
 STRIAE_VECTORISED void ToPolar(const fftwf_complex* signal, int length, float* __restrict phase,
-                               float* __restrict amplitude) {
+                               float* __restrict amplitude, float* __restrict stripes) {
   const float* __restrict z = &signal[0][0];
   for (std::size_t i = 0; i < static_cast<std::size_t>(length); ++i) {
     const float re = z[2 * i], im = z[2 * i + 1];
     phase[i] = ArcTangent(im, re);
     amplitude[i] = std::sqrt(re * re + im * im);
+    stripes[i] = re;
   }
 }
 
-constexpr float kLitShare = 0.25F;  ///< of the brightest background: light has shot noise, darkness has less
-constexpr double kLeastLit = 0.05;  ///< of a line
+constexpr float kLitShare = 0.25F;      ///< of the brightest background: light has shot noise, darkness has less
+constexpr double kLeastLit = 0.05;      ///< of a line
+constexpr double kMisfitReach = 0.625;  ///< periods to either side: a folded place is judged with what it spoils around
 
 /// Share of a lane's positions that are at least so bright.
 double LitShare(const float* lane, int length, float least) {
@@ -72,6 +74,7 @@ LineAnalysis::LineAnalysis(int length, double period_px, double half_width, bool
 LineAnalysis::Scratch::Scratch(const LineAnalysis& analysis)
     : lines(RealArray(analysis.length_ * kLanes)),
       amplitudes(RealArray(analysis.length_ * kLanes)),
+      stripes(RealArray(analysis.length_ * kLanes)),
       real(RealArray(analysis.padded_)),
       spectrum(ComplexArray(analysis.padded_)),
       signal(ComplexArray(analysis.padded_)),
@@ -121,10 +124,20 @@ void LineAnalysis::Stripes(const float* light, const Signal& out, Scratch& scrat
     const std::size_t behind = static_cast<std::size_t>(first_) + window_.size();
     std::memset(spectrum + behind, 0, sizeof(fftwf_complex) * (static_cast<std::size_t>(padded_) - behind));
     plans_.Inverse(spectrum, band);
-    ToPolar(band, length_, phases + lane * stride, amplitudes + lane * stride);
+    ToPolar(band, length_, phases + lane * stride, amplitudes + lane * stride, scratch.stripes.get() + lane * stride);
   }
   LinesToLanes(phases, stride, length_, out.phase);
   LinesToLanes(amplitudes, stride, length_, out.amplitude);
+  LinesToLanes(scratch.stripes.get(), stride, length_, out.stripes);
+}
+
+void LineAnalysis::Misfit(const float* light, const Signal& signal, std::uint8_t* misfit, Scratch& scratch) const {
+  float *both = scratch.lines.get(), *of_light = scratch.amplitudes.get(), *of_stripes = scratch.once.data();
+  for (std::size_t i = 0; i < scratch.once.size(); ++i) both[i] = light[i] - signal.background[i];
+  const double detail_px = std::max(1.0, period_px_ / 3);
+  BoxMean(both, of_light, length_, detail_px);
+  BoxMean(signal.stripes, of_stripes, length_, detail_px);
+  LaneMisfit(of_light, of_stripes, length_, static_cast<int>(std::lround(kMisfitReach * period_px_)), misfit);
 }
 
 double LineAnalysis::Noise(const std::vector<Lanes<float>>& blocks) const {

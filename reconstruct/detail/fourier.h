@@ -21,7 +21,7 @@ class LineAnalysis {
 
    private:
     friend class LineAnalysis;
-    FftwArray<float> lines, amplitudes;  ///< kLanes rows of length_
+    FftwArray<float> lines, amplitudes, stripes;  ///< kLanes rows of length_
     FftwArray<float> real;
     FftwArray<fftwf_complex> spectrum, signal;
     Lanes<float> once;
@@ -32,10 +32,17 @@ class LineAnalysis {
     float* phase;       ///< wrapped, rad, in (-pi, pi]; 0 at the centre of a bright stripe
     float* amplitude;   ///< of the fundamental, in the units of the signal
     float* background;  ///< local mean over one period, twice: zero at the carrier and its harmonics
+    float* stripes;     ///< amplitude * cos(phase)
   };
   void Background(const float* light, float* background, Scratch& scratch) const;
-  /// Phase and amplitude of light whose background is in `out` already.
+  /// Phase, amplitude and stripes of light whose background is in `out` already.
   void Stripes(const float* light, const Signal& out, Scratch& scratch) const;
+
+  /// How far the light is from following the stripes found in it, as LaneMisfit keeps it: over five quarters of a
+  /// period, without what is finer than the grating's third harmonic. Where the surface steps, ends or folds within a
+  /// period, or light saturates, no phase that is smooth enough for the window describes the light, and what it leaves
+  /// over is about as large as what it took up wrongly. A slope that the window only dims does not count.
+  void Misfit(const float* light, const Signal& signal, std::uint8_t* misfit, Scratch& scratch) const;
 
   /// No amplitude in the block reaches `least_amplitude`, or `least_modulation` of the darkest part of it; told from
   /// its mean over all lines. False when in doubt. Most of a photograph is often unlit, and done with for a third of

@@ -18,6 +18,7 @@ constexpr std::size_t At(int position) { return static_cast<std::size_t>(positio
 // One value of every lane (GCC's and clang's vector types: arithmetic is by lane, a comparison gives 0 or -1).
 using Floats = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
 using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
+using Doubles = double __attribute__((vector_size(8 * kLanes)));
 using Shorts = std::uint16_t __attribute__((vector_size(2 * kLanes), aligned(2), may_alias));
 using Bytes = std::uint8_t __attribute__((vector_size(kLanes), aligned(1), may_alias));
 
@@ -172,14 +173,13 @@ STRIAE_VECTORISED void LinesToLanes(const float* in, std::size_t stride, int len
 }
 
 STRIAE_VECTORISED void LaneMaximum(const float* in, int length, int reach, float* out, Lanes<float>& scratch) {
-  // Position i of the padded line is position i - 2 reach of `in`; out[i] is the largest of the padded i .. i + 2
-  // reach.
-  const int window = 2 * reach + 1, outputs = length + 2 * reach;
-  const int padded = (outputs + 2 * reach + window - 1) / window * window;
+  // Position i of the padded line is position i - reach of `in`; out[i] is the largest of the padded i .. i + 2 reach.
+  const int window = 2 * reach + 1;
+  const int padded = (length + 2 * reach + window - 1) / window * window;
   scratch.resize(At(padded));
   const Floats lowest = Floats{} + std::numeric_limits<float>::lowest();
   const auto value = [&](int i) -> Floats {
-    const int from = i - 2 * reach;
+    const int from = i - reach;
     return from >= 0 && from < length ? STRIAE_LANES(const Floats, in + At(from)) : lowest;
   };
   Floats falling = lowest;  // largest from a position to the end of its block
@@ -190,7 +190,7 @@ STRIAE_VECTORISED void LaneMaximum(const float* in, int length, int reach, float
     STRIAE_LANES(Floats, scratch.data() + At(i)) = falling;
   }
   Floats rising = lowest;  // largest from the start of the block to where the window ends
-  for (int i = 0; i < outputs + window - 1; ++i) {
+  for (int i = 0; i < length + window - 1; ++i) {
     if (i % window == 0) rising = lowest;
     const Floats own = value(i);
     rising = own > rising ? own : rising;
@@ -198,6 +198,35 @@ STRIAE_VECTORISED void LaneMaximum(const float* in, int length, int reach, float
     const int start = i - (window - 1);
     const Floats begin = STRIAE_LANES(const Floats, scratch.data() + At(start));
     STRIAE_LANES(Floats, out + At(start)) = begin > rising ? begin : rising;
+  }
+}
+
+STRIAE_VECTORISED void LaneMisfit(const float* light, const float* stripes, int length, int reach,
+                                  std::uint8_t* misfit) {
+  // Sums of light^2, stripes^2 and light * stripes. In double precision: behind a bright place a running sum of single
+  // precision would drift by more than the darkest stripes' power.
+  Doubles of_light{}, of_stripes{}, of_both{};
+  const auto move = [&](int position, double sign) __attribute__((always_inline)) {
+    if (position < 0 || position >= length) return;
+    const Floats x = STRIAE_LANES(const Floats, light + At(position));
+    const Floats s = STRIAE_LANES(const Floats, stripes + At(position));
+    of_light += sign * __builtin_convertvector(x * x, Doubles);
+    of_stripes += sign * __builtin_convertvector(s * s, Doubles);
+    of_both += sign * __builtin_convertvector(x * s, Doubles);
+  };
+  for (int i = 0; i < reach; ++i) move(i, 1);
+  for (int i = 0; i < length; ++i) {
+    move(i + reach, 1);
+    std::array<float, kLanes> unexplained;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double power = of_light[lane] * of_stripes[lane];
+      unexplained[lane] = static_cast<float>(1 - of_both[lane] * of_both[lane] / (power + 1e-30));
+    }
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const float root = 255 * std::sqrt(std::sqrt(std::max(unexplained[lane], 0.0F)));
+      misfit[At(i) + lane] = static_cast<std::uint8_t>(static_cast<int>(root));
+    }
+    move(i - reach, -1);
   }
 }
 
@@ -213,16 +242,10 @@ STRIAE_VECTORISED void GroupMaximum(const float* in, int length, int group, floa
 }
 
 STRIAE_VECTORISED void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length,
-                                  int group, int reach, const MaskLimits& limits, std::uint8_t* mask) {
-  const Floats share = Floats{} + limits.least_share, between = Floats{} + limits.least_share_between;
+                                  int group, const MaskLimits& limits, std::uint8_t* mask) {
   for (int first = 0, g = 0; first < length; first += group, ++g) {
-    // The maxima within `reach` around the place, and within twice of it before and after.
-    const Floats around = STRIAE_LANES(const Floats, maximum + At(g + reach));
-    const Floats before = STRIAE_LANES(const Floats, maximum + At(g));
-    const Floats after = STRIAE_LANES(const Floats, maximum + At(g + 2 * reach));
-    const Floats lower = before < after ? before : after;
-    const Floats shaded = (lower > share * around ? between : share) * around;
-    const Floats needed = shaded > limits.least_amplitude ? shaded : Floats{} + limits.least_amplitude;
+    const Floats share = limits.least_share * STRIAE_LANES(const Floats, maximum + At(g));
+    const Floats needed = share > limits.least_amplitude ? share : Floats{} + limits.least_amplitude;
     for (int i = first; i < std::min(first + group, length); ++i) {
       const Floats a = STRIAE_LANES(const Floats, amplitude + At(i));
       const Floats b = STRIAE_LANES(const Floats, background + At(i));

@@ -105,28 +105,30 @@ void SubtractToLines(const float* a, const float* b, int length, float* out, std
 /// Line l, at in + l * stride, goes to lane l.
 void LinesToLanes(const float* in, std::size_t stride, int length, float* out);
 
-/// Largest value from `reach` positions before to `reach` after (van Herk, Pattern Recognition Letters 13 (1992) 517),
-/// for the positions -reach to length + reach - 1: out has (length + 2 reach) * kLanes values. `scratch` likewise as
-/// long as it needs to be.
+/// Largest value from `reach` positions before to `reach` after (van Herk, Pattern Recognition Letters 13 (1992) 517).
+/// `scratch` becomes as long as it needs to be.
 void LaneMaximum(const float* in, int length, int reach, float* out, Lanes<float>& scratch);
+
+/// How far light is from following the stripes around every position: sqrt(1 - r^2), where r is the correlation (about
+/// zero) of the two from `reach` positions before to `reach` after. 0 where the light is the stripes times any factor,
+/// 1 where it has nothing of them. Kept as 255 times its root.
+void LaneMisfit(const float* light, const float* stripes, int length, int reach, std::uint8_t* misfit);
 
 /// Largest value of every `group` neighbouring positions; out has ceil(length / group) * kLanes values.
 void GroupMaximum(const float* in, int length, int group, float* out);
 
 /// What the mask asks of a pixel, besides its neighbourhood.
 struct MaskLimits {
-  float least_amplitude = 0;      ///< against the noise
-  float least_modulation = 0;     ///< amplitude over background
-  float most_modulation = 2;      ///< the same
-  float least_share = 0;          ///< of the plateau around
-  float least_share_between = 0;  ///< the same between bright places
-  int least_run_px = 1;           ///< along the line
-  int rim_px = 0;                 ///< taken off a run's ends
+  float least_amplitude = 0;   ///< against the noise
+  float least_modulation = 0;  ///< amplitude over background
+  float most_modulation = 2;   ///< the same
+  float least_share = 0;       ///< of the plateau around
+  int least_run_px = 1;        ///< along the line
+  int rim_px = 0;              ///< taken off a run's ends
 };
 
-/// mask = 1 where the limits hold. `maximum` is LaneMaximum's over
-/// groups of `group` positions, with that reach (in groups).
-void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length, int group, int reach,
+/// mask = 1 where the limits hold. `maximum` is LaneMaximum's over groups of `group` positions.
+void JudgeLanes(const float* amplitude, const float* background, const float* maximum, int length, int group,
                 const MaskLimits& limits, std::uint8_t* mask);
 
 /// Takes out runs of valid pixels shorter than `least` along each lane.

@@ -47,9 +47,10 @@ std::vector<Setting> Settings() {
           {"background not removed", [](ReconstructOptions& o) { o.phase.remove_background = false; }},
           {"ends not trimmed", [](ReconstructOptions& o) { o.phase.rim_periods = 0; }},
           {"mask: no largest modulation", [](ReconstructOptions& o) { o.phase.most_modulation = 10; }},
-          {"mask: plateau share 0.25", [](ReconstructOptions& o) { o.phase.least_plateau_share = 0.25; }},
+          {"mask: any misfit", [](ReconstructOptions& o) { o.phase.most_misfit = 1; }},
+          {"mask: misfit up to 0.1", [](ReconstructOptions& o) { o.phase.most_misfit = 0.1; }},
+          {"mask: plateau share 0.2", [](ReconstructOptions& o) { o.phase.least_plateau_share = 0.2; }},
           {"mask: plateau share 0.55", [](ReconstructOptions& o) { o.phase.least_plateau_share = 0.55; }},
-          {"mask: no share between", [](ReconstructOptions& o) { o.phase.least_share_between = 0.4; }},
           {"mask: modulation share 0.2", [](ReconstructOptions& o) { o.phase.least_modulation_share = 0.2; }}};
 }
 

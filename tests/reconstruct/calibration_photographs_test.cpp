@@ -121,6 +121,7 @@ PhaseResult TwoSheets() {
   PhaseResult phase;
   phase.carrier_period_px = 20;
   phase.mask = Mask(400, 300, 1);
+  phase.misfit = Mask(400, 300, 0);
   phase.amplitude = ImageF(400, 300, 0.2F);
   phase.background = ImageF(400, 300, 0.5F);
   phase.noise = 0.001;
