@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kComparableFit = 1.2;       // a model whose ring rms is worse than this does not fit, and says nothing
 constexpr double kComparableScore = 1.5;     // nor one that continues intact skin worse than this
-constexpr double kBridgeRelativeSd = 0.15;   // of the volume over bridged holes
+constexpr double kBridgeRelativeSd = 0.1;    // of the volume over bridged holes
 constexpr double kBedAreaRelativeSd = 0.02;  // smoothing rounds the rim
 constexpr double kDepthRelativeSd = 0.005;   // the Fourier window rings at steep walls
-constexpr double kDepthShare = 0.02;         // of the kernel's sd: what it leaves of an uneven bed's deepest place
+constexpr double kDepthShare = 0.01;         // of the kernel's sd: what it leaves of an uneven bed's deepest place
 
 double RootOfSquares(std::initializer_list<double> parts) {
   double sum = 0;
