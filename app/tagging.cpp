@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "app/names.h"
 #include "app/intake.h"
+#include "app/names.h"
 #include "app/study.h"
 
 namespace striae::app {
