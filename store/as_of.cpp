@@ -86,7 +86,8 @@ void Settle(Database& past, Names& names) {
       values.push_back(ValueOf(cell));
     }
     values.emplace_back(id);
-    past.Run("UPDATE " + table + " SET " + sets + " WHERE id = ?", values);
+    std::string sql = "UPDATE ";
+    past.Run(sql.append(table).append(" SET ").append(sets).append(" WHERE id = ?"), values);
   }
 }
 
@@ -112,7 +113,9 @@ void MakeTables(Database& past, Database& now) {
     for (const detail::UniqueKey& key : detail::UniqueKeysOf(now, table)) {
       std::string columns;
       for (const std::string& column : key.columns) columns += (columns.empty() ? "" : ", ") + column;
-      past.Execute("CREATE INDEX past_" + table + std::to_string(++count) + " ON " + table + " (" + columns + ")");
+      std::string sql = "CREATE INDEX past_";
+      sql.append(table).append(std::to_string(++count)).append(" ON ").append(table);
+      past.Execute(sql.append(" (").append(columns).append(")"));
     }
   }
 }
