@@ -42,9 +42,8 @@ STRIAE_VECTORISED void ToPolar(const fftwf_complex* signal, int length, float* _
   }
 }
 
-constexpr float kLitShare = 0.25F;      ///< of the brightest background: light has shot noise, darkness has less
-constexpr double kLeastLit = 0.05;      ///< of a line
-constexpr double kMisfitReach = 0.625;  ///< periods to either side: a folded place is judged with what it spoils around
+constexpr float kLitShare = 0.25F;  ///< of the brightest background: light has shot noise, darkness has less
+constexpr double kLeastLit = 0.05;  ///< of a line
 
 /// Share of a lane's positions that are at least so bright.
 double LitShare(const float* lane, int length, float least) {
@@ -132,12 +131,8 @@ void LineAnalysis::Stripes(const float* light, const Signal& out, Scratch& scrat
 }
 
 void LineAnalysis::Misfit(const float* light, const Signal& signal, std::uint8_t* misfit, Scratch& scratch) const {
-  float *both = scratch.lines.get(), *of_light = scratch.amplitudes.get(), *of_stripes = scratch.once.data();
-  for (std::size_t i = 0; i < scratch.once.size(); ++i) both[i] = light[i] - signal.background[i];
-  const double detail_px = std::max(1.0, period_px_ / 3);
-  BoxMean(both, of_light, length_, detail_px);
-  BoxMean(signal.stripes, of_stripes, length_, detail_px);
-  LaneMisfit(of_light, of_stripes, length_, static_cast<int>(std::lround(kMisfitReach * period_px_)), misfit);
+  const int group = std::max(1, static_cast<int>(std::lround(period_px_ / 6)));
+  LaneMisfit(light, signal.background, signal.stripes, length_, group, scratch.groups, misfit);
 }
 
 double LineAnalysis::Noise(const std::vector<Lanes<float>>& blocks) const {

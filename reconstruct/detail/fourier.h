@@ -24,7 +24,7 @@ class LineAnalysis {
     FftwArray<float> lines, amplitudes, stripes;  ///< kLanes rows of length_
     FftwArray<float> real;
     FftwArray<fftwf_complex> spectrum, signal;
-    Lanes<float> once;
+    Lanes<float> once, groups;
   };
 
   /// All of length * kLanes values.
@@ -38,10 +38,11 @@ class LineAnalysis {
   /// Phase, amplitude and stripes of light whose background is in `out` already.
   void Stripes(const float* light, const Signal& out, Scratch& scratch) const;
 
-  /// How far the light is from following the stripes found in it, as LaneMisfit keeps it: over five quarters of a
-  /// period, without what is finer than the grating's third harmonic. Where the surface steps, ends or folds within a
-  /// period, or light saturates, no phase that is smooth enough for the window describes the light, and what it leaves
-  /// over is about as large as what it took up wrongly. A slope that the window only dims does not count.
+  /// How far the light is from following the stripes found in it, as LaneMisfit keeps it: over one and a
+  /// half periods, by means over a third of a period: the grating's third harmonic has none. Where the surface steps,
+  /// ends or folds within a period, or light saturates, no phase that is smooth enough for the window describes the
+  /// light, and what it leaves over is about as large as what it took up wrongly. A slope that the window only dims
+  /// does not count.
   void Misfit(const float* light, const Signal& signal, std::uint8_t* misfit, Scratch& scratch) const;
 
   /// No amplitude in the block reaches `least_amplitude`, or `least_modulation` of the darkest part of it; told from

@@ -18,7 +18,6 @@ constexpr std::size_t At(int position) { return static_cast<std::size_t>(positio
 // One value of every lane (GCC's and clang's vector types: arithmetic is by lane, a comparison gives 0 or -1).
 using Floats = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
 using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
-using Doubles = double __attribute__((vector_size(8 * kLanes)));
 using Shorts = std::uint16_t __attribute__((vector_size(2 * kLanes), aligned(2), may_alias));
 using Bytes = std::uint8_t __attribute__((vector_size(kLanes), aligned(1), may_alias));
 
@@ -201,32 +200,57 @@ STRIAE_VECTORISED void LaneMaximum(const float* in, int length, int reach, float
   }
 }
 
-STRIAE_VECTORISED void LaneMisfit(const float* light, const float* stripes, int length, int reach,
-                                  std::uint8_t* misfit) {
-  // Sums of light^2, stripes^2 and light * stripes. In double precision: behind a bright place a running sum of single
-  // precision would drift by more than the darkest stripes' power.
-  Doubles of_light{}, of_stripes{}, of_both{};
-  const auto move = [&](int position, double sign) __attribute__((always_inline)) {
-    if (position < 0 || position >= length) return;
-    const Floats x = STRIAE_LANES(const Floats, light + At(position));
-    const Floats s = STRIAE_LANES(const Floats, stripes + At(position));
-    of_light += sign * __builtin_convertvector(x * x, Doubles);
-    of_stripes += sign * __builtin_convertvector(s * s, Doubles);
-    of_both += sign * __builtin_convertvector(x * s, Doubles);
-  };
-  for (int i = 0; i < reach; ++i) move(i, 1);
-  for (int i = 0; i < length; ++i) {
-    move(i + reach, 1);
+namespace {
+
+/// Of every group of positions and the next: sums of light without its background, and of the stripes.
+STRIAE_VECTORISED void SumPairs(const float* light, const float* background, const float* stripes, int length,
+                                int group, int groups, float* of_light, float* of_stripes) {
+  Floats light_before{}, stripes_before{};
+  for (int g = groups - 1; g >= 0; --g) {
+    Floats x{}, s{};
+    for (int i = g * group; i < std::min(length, (g + 1) * group); ++i) {
+      x += STRIAE_LANES(const Floats, light + At(i)) - STRIAE_LANES(const Floats, background + At(i));
+      s += STRIAE_LANES(const Floats, stripes + At(i));
+    }
+    STRIAE_LANES(Floats, of_light + At(g)) = x + light_before;
+    STRIAE_LANES(Floats, of_stripes + At(g)) = s + stripes_before;
+    light_before = x;
+    stripes_before = s;
+  }
+}
+
+/// 255 (1 - r^2)^(1/4) of every lane.
+STRIAE_VECTORISED void KeepUnexplained(const float* unexplained, std::uint8_t* misfit) {
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const float share = std::min(std::max(unexplained[lane], 0.0F), 1.0F);
+    misfit[lane] = static_cast<std::uint8_t>(static_cast<int>(255 * std::sqrt(std::sqrt(share))));
+  }
+}
+
+}  // namespace
+
+STRIAE_VECTORISED void LaneMisfit(const float* light, const float* background, const float* stripes, int length,
+                                  int group, Lanes<float>& scratch, std::uint8_t* misfit) {
+  constexpr int kReach = 4;  // pairs before the group's middle, and as many after
+  const int groups = (length + group - 1) / group;
+  scratch.resize(2 * At(groups));
+  float *of_light = scratch.data(), *of_stripes = of_light + At(groups);
+  SumPairs(light, background, stripes, length, group, groups, of_light, of_stripes);
+  for (int g = 0; g < groups; ++g) {
+    Floats xx{}, ss{}, xs{};
+    for (int k = std::max(0, g - kReach); k < std::min(groups, g + kReach); ++k) {
+      const Floats x = STRIAE_LANES(const Floats, of_light + At(k)), s = STRIAE_LANES(const Floats, of_stripes + At(k));
+      xx += x * x;
+      ss += s * s;
+      xs += x * s;
+    }
     std::array<float, kLanes> unexplained;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const double power = of_light[lane] * of_stripes[lane];
-      unexplained[lane] = static_cast<float>(1 - of_both[lane] * of_both[lane] / (power + 1e-30));
+    STRIAE_LANES(Floats, unexplained.data()) = 1.0F - xs * xs / (xx * ss + 1e-30F);
+    const int first = g * group;
+    KeepUnexplained(unexplained.data(), misfit + At(first));
+    for (int i = first + 1; i < std::min(length, first + group); ++i) {
+      std::copy_n(misfit + At(first), kLanes, misfit + At(i));
     }
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const float root = 255 * std::sqrt(std::sqrt(std::max(unexplained[lane], 0.0F)));
-      misfit[At(i) + lane] = static_cast<std::uint8_t>(static_cast<int>(root));
-    }
-    move(i - reach, -1);
   }
 }
 

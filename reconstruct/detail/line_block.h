@@ -109,10 +109,12 @@ void LinesToLanes(const float* in, std::size_t stride, int length, float* out);
 /// `scratch` becomes as long as it needs to be.
 void LaneMaximum(const float* in, int length, int reach, float* out, Lanes<float>& scratch);
 
-/// How far light is from following the stripes around every position: sqrt(1 - r^2), where r is the correlation (about
-/// zero) of the two from `reach` positions before to `reach` after. 0 where the light is the stripes times any factor,
-/// 1 where it has nothing of them. Kept as 255 times its root.
-void LaneMisfit(const float* light, const float* stripes, int length, int reach, std::uint8_t* misfit);
+/// How far light without its background is from following the stripes: sqrt(1 - r^2), where r is the correlation (about
+/// zero) of the two over nine groups of positions around each, by the sums of every two neighbouring groups. 0 where
+/// the light is the stripes times any factor, 1 where it has nothing of them. Kept as 255 times its root, the same for
+/// all positions of a group.
+void LaneMisfit(const float* light, const float* background, const float* stripes, int length, int group,
+                Lanes<float>& scratch, std::uint8_t* misfit);
 
 /// Largest value of every `group` neighbouring positions; out has ceil(length / group) * kLanes values.
 void GroupMaximum(const float* in, int length, int group, float* out);
