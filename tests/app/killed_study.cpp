@@ -142,14 +142,14 @@ Command KilledStudy::Init(const std::string& round) {
           false};
 }
 Command KilledStudy::AddSubject(const std::string& round) {
-  return {{"subject", "add", "R" + round}, Shows({"show", "R" + round}, "R" + round)};
+  return {{"subject", "add", "R" + round, "--site", "A"}, Shows({"show", "R" + round}, "R" + round)};
 }
 Command KilledStudy::Consent(const std::string& round) {
-  Do({"subject", "add", "C" + round});
+  Do({"subject", "add", "C" + round, "--site", "A"});
   return {{"consent", "C" + round, "--given", "2026-05-02"}, Shows({"show", "C" + round}, "2026-05-02")};
 }
 Command KilledStudy::Withdraw(const std::string& round) {
-  Do({"subject", "add", "W" + round});
+  Do({"subject", "add", "W" + round, "--site", "A"});
   Do({"consent", "W" + round, "--given", "2026-05-02"});
   return {SignedIn({"consent", "W" + round, "--withdrawn", "2026-06-03", "--reason", "moved away"}),
           Shows({"show", "W" + round}, "2026-06-03")};
@@ -158,7 +158,7 @@ Command KilledStudy::AddArm(const std::string& round) {
   return {{"arm", "add", "arm" + round}, Shows({"arm", "list"}, "arm" + round)};
 }
 Command KilledStudy::AssignArm(const std::string& round) {
-  Do({"subject", "add", "A" + round});
+  Do({"subject", "add", "A" + round, "--site", "A"});
   return {{"arm", "assign", "A" + round, "A"}, {}};
 }
 Command KilledStudy::PlanVisit(const std::string& round) {
@@ -230,11 +230,11 @@ Command KilledStudy::Sign(const std::string&) {
   return {SignedIn({"sign", "S002", "--meaning", "reviewed"}), Shows({"signatures"}, "Test Investigator")};
 }
 Command KilledStudy::Lock(const std::string& round) {
-  Do({"subject", "add", "K" + round});
+  Do({"subject", "add", "K" + round, "--site", "A"});
   return {SignedIn({"lock", "K" + round, "--reason", "clean " + round}), Shows({"lock", "list"}, "clean " + round)};
 }
 Command KilledStudy::Unlock(const std::string& round) {
-  Do({"subject", "add", "U" + round});
+  Do({"subject", "add", "U" + round, "--site", "A"});
   Do(SignedIn({"lock", "U" + round, "--reason", "data are clean"}));
   return {SignedIn({"unlock", "U" + round, "--reason", "wrong date"}), {}};
 }
@@ -243,7 +243,7 @@ Command KilledStudy::Reassign(const std::string&) {
   return {SignedIn({"reassign", moved_, "--to", there ? session_ : other_session_, "--reason", "logged wrongly"}), {}};
 }
 Command KilledStudy::Merge(const std::string& round) {
-  Must({"-C", Path("laptop"), "subject", "add", "L" + round});
+  Must({"-C", Path("laptop"), "subject", "add", "L" + round, "--site", "A"});
   return {{"merge", Path("laptop")}, Shows({"show", "L" + round}, "L" + round)};
 }
 Command KilledStudy::Backup(const std::string& round) {
