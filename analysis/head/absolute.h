@@ -18,8 +18,9 @@ namespace striae::head {
 /// Measurements and codes as Measure; `axes_source` is "anatomical", `rotation_in_subject` (rows) the head's rotation
 /// in the torso's axes; `symmetry_residual_mm`, `overlap` for each part; `landmarks_source` given or found.
 /// Uncertainties are those of people's shape, not of the registration: options.symmetry_sd_deg for rotation and tilt,
-/// options.profile_sd_deg for flexion.
-/// kMeasurementRefused where Measure refuses a neutral capture, or a part is not symmetric enough to have a plane.
+/// options.profile_sd_deg for flexion; of a turned head the profile's part goes over to tilt, of a tilted one to
+/// rotation. kMeasurementRefused where Measure refuses a neutral capture, or a part is not symmetric enough to have a
+/// plane.
 Result<AnalysisReport> MeasureAbsolute(const Surface& capture, const Options& options = {});
 
 }  // namespace striae::head

@@ -25,9 +25,12 @@ constexpr double kLargestNeckMoveMm = 110;  // protraction or side shift of a ne
 constexpr double kLeastVisible = 0.4;
 // What fits this closely is the same skin; the rest of it may be a stripe out of order, or under hair by now.
 constexpr double kCloselyMm = 0.4, kOverlapForgiven = 0.15;
-constexpr double kSurelyOneMm = 0.8;    // twice what breath and expression left of one person in trials
-constexpr double kMirrorGain = 0.7;     // of the residual: sides differ by 1 mm and more in people, noise is 0.2 mm
-constexpr double kHoldPerResidual = 5;  // a ball's noise resists by 2 to 3 times the residual, faces by 13 and more
+constexpr double kSurelyOneMm = 0.7;  // breath, expression and hair left up to 0.55 mm of one person in trials
+constexpr double kResidualPerNoise = 2.5;
+constexpr double kLikeAPerson = 0.65;     // overlap: mirror images of people keep more, other things less
+constexpr double kMirrorGain = 0.7;       // of the residual: sides differ by 1 mm and more in people, noise is 0.2 mm
+constexpr double kLeastHoldUnsaidMm = 5;  // of surfaces that do not say how uncertain they are: noise looks like relief
+constexpr double kHoldPerResidual = 7;    // a ball resists by 2 to 3 times its residual, faces by 9 and more
 constexpr double kRivalRatio = 1.1, kRivalMargin = 0.01;  // losses of the same basin differ by less than a hundredth
 
 std::string Number(double value, const char* format) {
@@ -52,7 +55,8 @@ Status Judge(const Fit& fit, const std::string& part, const Options& options) {
                   Number(100 * fit.visible, "%.0f %%") +
                   " of it can be seen): take the photograph from nearer to the direction of the face");
   }
-  const double allowed = std::min(options.largest_residual_mm, std::max(kSurelyOneMm, 4 * fit.noise_mm));
+  const double allowed =
+      std::min(options.largest_residual_mm, std::max(kSurelyOneMm, kResidualPerNoise * fit.noise_mm));
   if (fit.residual_mm > allowed) {
     return refuse("lies " + Number(fit.residual_mm, "%.1f mm") + " (root mean square) off its counterpart, more than " +
                   Number(allowed, "%.1f mm") + ": a different person, or stripes out of order in one capture");
@@ -75,7 +79,10 @@ Status Judge(const Fit& fit, const std::string& part, const Options& options) {
 /// Refuses a torso that fits its counterpart's mirror image better: one of the photographs was mirrored on its way
 /// here.
 Status JudgeMirror(const Patch& torso, const Fit& fit, const Capture& capture, const Eigen::Vector3d& shift) {
-  const Fit other = detail::FitTorso(detail::Mirrored(torso), capture, shift);
+  if (fit.overlap < kLikeAPerson) return {};  // something else altogether: Judge says so
+  Patch mirrored = detail::Mirrored(torso);
+  mirrored.fine = mirrored.coarse;  // a ninth of the points is enough to compare residuals, and of the time
+  const Fit other = detail::FitTorso(mirrored, capture, shift);
   if (other.overlap < fit.overlap - 0.1 || other.residual_mm > kMirrorGain * fit.residual_mm) return {};
   return Fail(ErrorCode::kMeasurementRefused,
               "the torso fits the other capture's mirror image better (" + Number(other.residual_mm, "%.2f mm") +
@@ -95,8 +102,12 @@ FittedPart PartOf(const Fit& fit) {
 
 }  // namespace
 
-Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, const Options& options, HeadFits* fits) {
-  if (auto checked = detail::Check(options); !checked) return Fail(checked.error());
+Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, const Options& given, HeadFits* fits) {
+  if (auto checked = detail::Check(given); !checked) return Fail(checked.error());
+  Options options = given;
+  if (neutral.uncertainty_mm.empty()) {
+    options.least_observability_mm = std::max(options.least_observability_mm, kLeastHoldUnsaidMm);
+  }
   const Eigen::Matrix3d subject_from_camera = SubjectFromCamera(options.up_in_camera);
   const auto from = detail::Prepare(neutral, options.spacing_mm, "neutral");
   if (!from) return Fail(from.error());

@@ -26,13 +26,13 @@ struct Options {
   double spacing_mm = 2.0;
   /// Share of a patch's points, of those that face the camera after the motion, that must find their counterpart.
   double least_overlap = 0.8;
-  /// Largest root mean square distance (point to plane) of the counterparts, mm; four times what the surfaces state as
-  /// their own uncertainty where that is less, but not below 0.8 mm. One person's fits left 0.1 to 0.4 mm in trials,
-  /// those of others 1.3 mm and more.
+  /// Largest root mean square distance (point to plane) of the counterparts, mm; 2.5 times what the surfaces state as
+  /// their own uncertainty where that is less, but not below 0.7 mm. One person's fits left 0.1 to 0.55 mm in trials,
+  /// those of others 0.9 mm and more (torso).
   double largest_residual_mm = 1.2;
   /// Smallest resistance of a patch against being turned: root mean square shift along the normals for a turn of
   /// 1 rad about the weakest axis, mm. Zero for a sphere, whose noise alone resists by twice or three times the
-  /// residual: five times are asked for besides.
+  /// residual: seven times are asked for besides.
   double least_observability_mm = 2.5;
   /// Standard uncertainty of the camera's axes as the subject's axes, about each axis.
   double axes_sd_deg = 2.0;
@@ -40,7 +40,7 @@ struct Options {
   /// breath, field curvature of the calibration).
   double floor_sd_deg = 0.2;
   /// Of absolute angles: people's faces and chests are asymmetric, and their profiles slope differently.
-  double symmetry_sd_deg = 3.0, profile_sd_deg = 6.0;
+  double symmetry_sd_deg = 3.0, profile_sd_deg = 9.0;
   int resamples = 200;  ///< of the block bootstrap
   std::uint64_t seed = 1;
 };

@@ -190,7 +190,7 @@ void AddCommand_measure_head(CLI::App& root, Context& context) {
   command->add_option("--repeats", options->repeats,
                       "So many captures in a row show one pose: gives the repeatability (SEM, MDC95)");
   command->add_flag("--absolute", options->absolute,
-                    "One capture only: angles between the anatomical axes of head and torso (3 to 6 deg uncertain)");
+                    "One capture only: angles between the anatomical axes of head and torso (3 to 9 deg uncertain)");
   OnRun(command, context, [options](Context& c) { return Run(*options, c); });
 }
 

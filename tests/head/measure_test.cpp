@@ -166,7 +166,7 @@ TEST(HeadMeasureRefuses, TheBackOfTheHead) {
   Bust away;
   away.torso_motion = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY());
   const Surface back = SeenFromTheFront(away, kNoiseMm, 1);
-  const auto result = Measure(back, back);
+  const auto result = Measure(back, SeenFromTheFront(away, kNoiseMm, 2));
   ASSERT_FALSE(result);
   EXPECT_THAT(result.error().Describe(), AnyOf(HasSubstr("no nose"), HasSubstr("too smooth")));
   ExpectRefused(Measure(Neutral(), back), "of the neutral capture");

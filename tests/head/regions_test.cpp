@@ -38,6 +38,8 @@ TEST(HeadRegions, SayWhatIsWrongWithThem) {
   EXPECT_THAT(why("{}"), HasSubstr("no region"));
   EXPECT_THAT(why(R"({"head_px": [[1,2],[3,4]]})"), HasSubstr("head_px"));
   EXPECT_THAT(why(R"({"torso_px": [[0,0],[9,9],[9,0],[0,9]]})"), HasSubstr("torso_px"));
+  EXPECT_THAT(why(R"({"brow_px": [5,5]})"), HasSubstr("only together"));
+  EXPECT_THAT(why(R"({"brow_px": [5], "chin_px": [5,9]})"), HasSubstr("brow_px must be"));
   EXPECT_THAT(why(R"({"head_px": [[0,0],[9,0],[0,9]], "image_sha256": 5})"), HasSubstr("image_sha256"));
 }
 

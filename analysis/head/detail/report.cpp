@@ -167,9 +167,13 @@ AnalysisReport AbsoluteReport(const Fit& head, const Fit& torso, const Eigen::Ma
   report.provenance.parameters = {{"spacing_mm", options.spacing_mm},
                                   {"symmetry_sd_deg", options.symmetry_sd_deg},
                                   {"profile_sd_deg", options.profile_sd_deg}};
+  const AngleArray angles = AnglesOf(rotation_in_subject);
   const double side = options.symmetry_sd_deg, profile = options.profile_sd_deg;
-  // The total angle turns about whatever axis the pose has: the worse of the two holds for all.
-  report.measurements = Measurements(AnglesOf(rotation_in_subject), {side, profile, side, profile});
+  // A profile that slopes otherwise than was taken leans the head's up axis; turned or tilted, it leans to the side.
+  const double turned = std::sin(Angle::Degrees(angles[0]).rad()), tilted = std::sin(Angle::Degrees(angles[2]).rad());
+  // The total angle turns about whatever axis the pose has: the worst of all holds for it.
+  report.measurements = Measurements(angles, {std::hypot(side, profile * tilted), profile,
+                                              std::hypot(side, profile * turned), std::hypot(side, profile)});
   nlohmann::json words = nlohmann::json::object();
   for (const Measurement& m : report.measurements) words[m.name] = InWords(m.name, m.value);
   report.details = {{"rotation_in_subject", Rows(rotation_in_subject)},
