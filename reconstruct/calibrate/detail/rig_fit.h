@@ -76,8 +76,10 @@ class RigFit {
   Eigen::MatrixXd camera_covariance_;  ///< of the law before
 };
 
-/// Sandwich: inverse(J'J) (G / (G - free) sum of cluster scores squared + priors' part) inverse(J'J). The first
-/// `cluster.size()` rows of the Jacobian are samples, the rest priors. Columns without a derivative have zeros.
+/// Delete-one-cluster jackknife, to first order: the sum over the G clusters of (G - 1) / G d d', where leaving a
+/// cluster out moves the parameters by d = inverse(J'J - its J'J) (its score), and the priors' part. Unlike the
+/// sandwich it counts the leverage of the few clusters at the field's border. The first `cluster.size()` rows of the
+/// Jacobian are samples, the rest priors. Columns without a derivative have zeros.
 Eigen::MatrixXd ClusterCovariance(const ceres::CRSMatrix& jacobian, const std::vector<double>& residuals,
                                   const std::vector<int>& cluster);
 
