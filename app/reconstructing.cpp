@@ -17,6 +17,7 @@ nlohmann::json ToJson(const reconstruct::ReconstructionReport& r, const SurfaceS
                              {"faces", size.faces},
                              {"coverage", r.coverage},
                              {"carrier_period_px", r.carrier_period_px},
+                             {"local_period_px", {r.local_periods.fifth_px, r.local_periods.ninety_fifth_px}},
                              {"direction", ToString(r.direction)},
                              {"regions", nlohmann::json::array()},
                              {"warnings", r.warnings},

@@ -79,6 +79,13 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
 /// The same in the memory of the photograph's luminance, which is gone afterwards; its colour stays.
 Result<PhaseResult> MeasurePhase(Photograph&& photograph, const PhaseOptions& options = {});
 
+/// The stripes' own period (px) along the line where it is measured: it follows slope and distance. 5th and 95th
+/// percentile over steps of half a carrier period; zeros where nothing is measured.
+struct LocalPeriods {
+  double fifth_px = 0, ninety_fifth_px = 0;
+};
+LocalPeriods FollowPeriod(const PhaseResult& phase);
+
 /// The mask without the pixels whose light does not fit: where the phase is a measurement.
 Mask MeasuredMask(const PhaseResult& phase);
 

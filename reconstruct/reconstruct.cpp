@@ -153,6 +153,7 @@ void TellOfCalibration(const Calibration& calibration, SensorReconstruction& out
 ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibration& calibration,
                const ReconstructOptions& options, SensorReconstruction& out) {
   out.carrier_period_px = phase.carrier_period_px;
+  out.local_periods = FollowPeriod(phase);
   out.direction = phase.direction;
   out.warnings = JudgePhotograph(photograph, phase).warnings;
   if (options.label_side_mm && options.find_target != nullptr) {

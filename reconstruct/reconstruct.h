@@ -38,6 +38,7 @@ struct ReconstructionReport {
   std::vector<RegionOrder> regions;  ///< largest first; those without an order are not in the surface
   double coverage = 0;               ///< share of the lit field that has a point
   double carrier_period_px = 0;
+  LocalPeriods local_periods;
   StripeDirection direction = StripeDirection::kHorizontal;
   /// What the calibration may move all points together by; also in the surface's comments. Not part of the points' own
   /// uncertainty. Empty where the calibration carries no covariance.

@@ -50,8 +50,10 @@ Status MeasurePhase(Context& context, const Options& options) {
   for (const std::uint8_t m : measured.pixels()) valid += m;
   const auto quality = reconstruct::JudgePhotograph(*photograph, *phase);
   for (const std::string& warning : quality.warnings) context.Note("warning: " + warning);
+  const reconstruct::LocalPeriods periods = reconstruct::FollowPeriod(*phase);
   const nlohmann::json document = {{"direction", ToString(phase->direction)},
                                    {"carrier_period_px", phase->carrier_period_px},
+                                   {"local_period_px", {periods.fifth_px, periods.ninety_fifth_px}},
                                    {"carrier_prominence", phase->carrier_prominence},
                                    {"points", valid},
                                    {"regions", phase->unwrapped.regions},

@@ -45,6 +45,23 @@ TEST(MeasurePhase, FollowsTheStripesAndIsZeroAtTheirBrightCentres) {
   }
 }
 
+TEST(FollowPeriod, FindsTheStripesOwnPeriodOnASlope) {
+  // A chirp: the frequency rises evenly from 0.8 to 1.2 of 1/18 along the line, so 5 and 95 % of it lie at 0.82
+  // and 1.18.
+  const auto order = [](double x) { return (0.8 * x + 0.2 * x * x / 600) / 18; };
+  for (const bool horizontal : {true, false}) {
+    const auto photograph = FromLight(horizontal ? 200 : 600, horizontal ? 600 : 200, [&](int col, int row) {
+      return 0.45 + 0.3 * std::cos(2 * kPi * order(horizontal ? row : col));
+    });
+    const auto phase = MeasurePhase(photograph);
+    ASSERT_TRUE(phase) << phase.error().message;
+    const LocalPeriods periods = FollowPeriod(*phase);
+    // 2 %: the line's ends, where the window sees half of a stripe, are among the highest and the lowest.
+    EXPECT_NEAR(periods.fifth_px, 18 / 1.18, 0.02 * 18);
+    EXPECT_NEAR(periods.ninety_fifth_px, 18 / 0.82, 0.02 * 18);
+  }
+}
+
 TEST(MeasurePhase, LeavesOutWhatTheStripesDoNotReach) {
   const auto photograph = FromLight(
       300, 400, [&](int col, int row) { return col < 150 ? 0.02 : 0.45 + 0.3 * std::cos(2 * kPi * row / 18.0); });
