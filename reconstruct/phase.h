@@ -25,7 +25,7 @@ struct PhaseOptions {
   double smoothing_along = 0;
   /// Most of the light that the stripes may leave unexplained (PhaseResult::MisfitAt): more is left at a silhouette, a
   /// step or a fold that the window cannot follow, and the phase is off by about as much.
-  double most_misfit = 0.19;
+  double most_misfit = 0.16;
   /// The same against the photograph's median: noise and texture leave more everywhere.
   double most_misfit_times = 3;
   /// Least amplitude against the local plateau (three periods along the line). At a silhouette it falls to half.

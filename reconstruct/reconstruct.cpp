@@ -84,7 +84,7 @@ ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions
 
 /// Where the stripes leave so much unexplained there are none: the window carries them on beyond an outline. On
 /// rendered bodies this counts the lit pixels to 1 %.
-constexpr std::uint8_t kNoStripes = 161;  // 255 sqrt(0.4)
+constexpr std::uint8_t kNoStripes = 140;  // 255 sqrt(0.3)
 
 STRIAE_VECTORISED std::size_t CountLit(const float* amplitude, const float* background, const std::uint8_t* misfit,
                                        int width, float lit) {
