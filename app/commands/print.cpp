@@ -1,8 +1,8 @@
 // `striae print board|label`: targets for the printer.
 #include <fmt/format.h>
 
-#include "app/names.h"
 #include "app/io/files.h"
+#include "app/names.h"
 #include "app/study.h"
 #include "report/print/targets.h"
 

@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "app/names.h"
 #include "app/listing.h"
+#include "app/names.h"
 #include "app/study.h"
 
 namespace striae::app {

@@ -1,7 +1,7 @@
 // `striae session open|list|close|reopen`: one subject before the camera, at one visit.
-#include "app/names.h"
 #include "app/listing.h"
 #include "app/local_time.h"
+#include "app/names.h"
 #include "app/study.h"
 #include "store/json.h"
 
