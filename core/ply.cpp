@@ -53,8 +53,9 @@ Status ReadVertices(PlyReader& reader, const PlyElement& element, Surface& surfa
       return Fail(ErrorCode::kBadFile, "vertex " + std::to_string(i) + " of the PLY is not finite");
     surface.point_in_camera.push_back(point.cast<float>());
     surface.colour.push_back(coloured ? Rgb8{ChannelOf(value(3)), ChannelOf(value(4)), ChannelOf(value(5))}
-                                      : Rgb8{200, 200, 200});
-    surface.quality.push_back(weighted && std::isfinite(value(6)) ? static_cast<float>(value(6)) : 1.0F);
+                                      : detail::kUnsaidColour);
+    surface.quality.push_back(weighted && std::isfinite(value(6)) ? static_cast<float>(value(6))
+                                                                  : detail::kUnsaidQuality);
     if (gridded) {
       surface.col.push_back(PixelOf(value(7)));
       surface.row.push_back(PixelOf(value(8)));

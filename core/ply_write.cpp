@@ -51,13 +51,17 @@ class PlyPieces {
   void EncodeVertices(std::size_t first, Buffer<std::uint8_t>& bytes) const {
     const std::size_t last = std::min(first + kElements, surface_.size());
     const bool gridded = surface_.HasGrid(), doubted = vertex_bytes_ > kPlyVertexBytes;
+    const bool coloured = surface_.colour.size() == surface_.size();
+    const bool weighted = surface_.quality.size() == surface_.size();
     bytes.resize((last - first) * vertex_bytes_);
     std::uint8_t* out = bytes.data();
     PlyVertex vertex;
+    if (!coloured) vertex.colour = detail::kUnsaidColour;
+    if (!weighted) vertex.quality = detail::kUnsaidQuality;
     for (std::size_t i = first; i < last; ++i) {
       vertex.point_in_camera = surface_.point_in_camera[i];
-      vertex.colour = surface_.colour[i];
-      vertex.quality = surface_.quality[i];
+      if (coloured) vertex.colour = surface_.colour[i];
+      if (weighted) vertex.quality = surface_.quality[i];
       if (gridded) {
         vertex.col = surface_.col[i];
         vertex.row = surface_.row[i];

@@ -7,9 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "core/image.h"
 #include "core/result.h"
 
 namespace striae::detail {
+
+/// Of surfaces that have none, written or read: a light grey, and full modulation.
+inline constexpr Rgb8 kUnsaidColour{200, 200, 200};
+inline constexpr float kUnsaidQuality = 1.0F;
 
 /// The comment line that keeps the sensor's size begins so.
 inline constexpr std::string_view kSensorComment = "striae sensor ";

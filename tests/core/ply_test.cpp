@@ -94,6 +94,18 @@ TEST(Ply, KeepsTheUncertaintyOfEachPoint) {
   EXPECT_TRUE(DecodePly(EncodePly(Patch()))->uncertainty_mm.empty());
 }
 
+TEST(Ply, ASurfaceWithoutColoursIsWrittenGrey) {
+  Surface bare = Patch();
+  bare.colour.clear();
+  bare.quality.clear();
+  const auto back = DecodePly(EncodePly(bare));
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->point_in_camera, bare.point_in_camera);
+  // What a file without colours and modulation is read as.
+  EXPECT_EQ(back->colour, Buffer<Rgb8>(4, Rgb8{200, 200, 200}));
+  EXPECT_EQ(back->quality, Buffer<float>(4, 1.0F));
+}
+
 /// More points and faces than two pieces hold, so that both threads work.
 Surface LargeSheet() {
   Surface sheet;
