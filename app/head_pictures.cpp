@@ -72,9 +72,9 @@ report::Drawing Sheet(const Layout& layout, const std::string& title) {
   sheet.height = layout.height();
   const char* names[] = {"front", "subject's right side", "top"};
   for (std::size_t k = 0; k < kViews.size(); ++k) {
-    sheet.Text({layout.Panel(kViews[k])[0] + 4.0, 14}, 12, names[k], kInk);
+    sheet.Text({layout.Panel(kViews[k])[0] + 4.0, 16}, 12, names[k], kInk);
   }
-  sheet.Text({layout.Panel(View::kFront)[0] + 4.0, layout.height() - 6.0}, 12, title, kInk);
+  sheet.Text({layout.Panel(View::kFront)[0] + 4.0, layout.height() - 7.0}, 12, title, kInk);
   return sheet;
 }
 
@@ -106,20 +106,25 @@ void DrawAngle(const Layout& layout, View view, const Eigen::Vector3d& neck, con
   }
   char text[80];
   std::snprintf(text, sizeof text, "%s %.1f +- %.1f deg", angle.name.c_str(), angle.value, angle.uncertainty);
-  sheet.Text({layout.Panel(view)[0] + 4.0, 32}, 13, text, kArrow, report::Anchor::kStart, true);
+  sheet.Text({layout.Panel(view)[0] + 4.0, 35}, 13, text, kArrow, report::Anchor::kStart, true);
 }
 
 ImageRgb Angles(const Surface& neutral, const Surface& pose, const head::HeadFits& fits, const AnalysisReport& report) {
   const auto here = PointsInSubject(neutral, Eigen::Isometry3d::Identity(), fits.subject_from_camera);
-  const Layout layout(here);
-  ImageRgb picture = PaintViews(
-      layout,
-      {InOneColour(here, kNeutral),
-       InOneColour(PointsInSubject(pose, fits.torso.pose_from_neutral.inverse(), fits.subject_from_camera), kPose)});
   const Eigen::Matrix3d in_camera =
       fits.torso.pose_from_neutral.linear().transpose() * fits.head.pose_from_neutral.linear();
   const Eigen::Matrix3d turn = fits.subject_from_camera * in_camera * fits.subject_from_camera.transpose();
   const Eigen::Vector3d neck = fits.subject_from_camera * fits.neck_in_camera;
+  std::vector<Eigen::Vector3d> tips;
+  for (const int axis : {0, 1}) {
+    tips.emplace_back(neck + kAxis_mm * Eigen::Vector3d::Unit(axis));
+    tips.emplace_back(neck + kAxis_mm * turn.col(axis));
+  }
+  const Layout layout(here, tips);
+  ImageRgb picture = PaintViews(
+      layout,
+      {InOneColour(here, kNeutral),
+       InOneColour(PointsInSubject(pose, fits.torso.pose_from_neutral.inverse(), fits.subject_from_camera), kPose)});
   report::Drawing sheet = Sheet(layout, "torsos laid on each other; blue: neutral, orange: the pose");
   const struct {
     const char* name;

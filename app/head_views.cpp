@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kPxPerMm = 0.8;
 constexpr int kMargin = 12;                  // px
+constexpr int kNarrowest = 230;              // px of a view: an angle's name, value and uncertainty stand above it
+constexpr double kRim_mm = 15;               // about what is shown
 constexpr double kTooWide_mm = 1200;         // what reaches farther is not a person
 constexpr std::size_t kMostPoints = 250000;  // one for each pixel of the front view, about
 constexpr int kSplat = 1;                    // px to either side
@@ -68,7 +70,7 @@ std::uint8_t Byte(double value) { return static_cast<std::uint8_t>(std::lround(s
 
 }  // namespace
 
-Layout::Layout(const std::vector<Eigen::Vector3f>& points) {
+Layout::Layout(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3d>& besides) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<float> values;
     values.reserve(points.size());
@@ -78,14 +80,20 @@ Layout::Layout(const std::vector<Eigen::Vector3f>& points) {
       std::nth_element(values.begin(), place, values.end());
       return static_cast<double>(*place);
     };
-    low_[axis] = at(0.005) - 15;
-    high_[axis] = std::min(at(0.995) + 15, low_[axis] + kTooWide_mm);
+    low_[axis] = at(0.005);
+    high_[axis] = std::min(at(0.995), low_[axis] + kTooWide_mm);
+    for (const auto& p : besides) {
+      low_[axis] = std::min(low_[axis], p[axis]);
+      high_[axis] = std::max(high_[axis], p[axis]);
+    }
+    low_[axis] -= kRim_mm;
+    high_[axis] += kRim_mm;
   }
 }
 
 std::array<int, 3> Layout::Panel(View view) const {
   const Eigen::Vector3d size = (high_ - low_) * kPxPerMm;
-  const auto px = [](double v) { return static_cast<int>(std::ceil(v)); };
+  const auto px = [](double v) { return std::max(kNarrowest, static_cast<int>(std::ceil(v))); };
   const int front = px(size.z()), deep = px(size.x());
   switch (view) {
     case View::kFront:
@@ -104,7 +112,8 @@ int Layout::width() const {
 }
 
 int Layout::height() const {
-  return static_cast<int>(std::ceil(std::max(high_.y() - low_.y(), high_.x() - low_.x()) * kPxPerMm)) + 2 * kMargin;
+  return static_cast<int>(std::ceil(std::max(high_.y() - low_.y(), high_.x() - low_.x()) * kPxPerMm)) + kHeader +
+         kFooter;
 }
 
 Eigen::Vector2d Layout::PixelOf(View view, const Eigen::Vector3d& in_subject) const {
@@ -113,7 +122,7 @@ Eigen::Vector2d Layout::PixelOf(View view, const Eigen::Vector3d& in_subject) co
                                  : view == View::kSide ? Eigen::Vector3d(low_.x(), high_.y(), 0)
                                                        : Eigen::Vector3d(low_.x(), 0, high_.z());
   const Eigen::Vector3d off = (InView(view, in_subject) - InView(view, corner)) * kPxPerMm;
-  return {off.x() + Panel(view)[0], off.y() + kMargin};
+  return {off.x() + Panel(view)[0], off.y() + kHeader};
 }
 
 ImageRgb PaintViews(const Layout& layout, const std::vector<Painted>& layers) {

@@ -23,11 +23,14 @@ struct Painted {
 enum class View { kFront, kSide, kTop };
 inline constexpr std::array<View, 3> kViews = {View::kFront, View::kSide, View::kTop};
 
-/// Where every view lies in the picture: the same box, in mm of subject axes, for all layers.
+/// Where every view lies in the picture: the same box, in mm of subject axes, for all layers. Above and below the views
+/// is room for words.
 class Layout {
  public:
-  /// Round the points' 0.5 to 99.5 percentiles with a margin; `points` must not be empty.
-  explicit Layout(const std::vector<Eigen::Vector3f>& points);
+  static constexpr int kHeader = 44, kFooter = 24;  ///< px, for words
+
+  /// Round the points' 0.5 to 99.5 percentiles and all of `besides`, with a margin; `points` must not be empty.
+  explicit Layout(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3d>& besides = {});
   [[nodiscard]] Eigen::Vector2d PixelOf(View view, const Eigen::Vector3d& in_subject) const;
   /// First column, and width, height of a view, px.
   [[nodiscard]] std::array<int, 3> Panel(View view) const;

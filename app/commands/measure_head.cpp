@@ -54,6 +54,16 @@ std::string Line(const Measurement& m) {
   return value + head::InWords(m.name, m.value);
 }
 
+/// Why numbers are flagged, each reason once.
+std::string Doubts(const AnalysisReport& report) {
+  std::string text;
+  for (const Measurement& m : report.measurements) {
+    if (m.status != Measurement::Status::kFlagged || text.find(m.reason) != std::string::npos) continue;
+    text += "  FLAGGED: " + m.reason + '\n';
+  }
+  return text;
+}
+
 std::string Text(const AnalysisReport& report) {
   std::string text = "Head against torso, from the neutral to the other capture:\n";
   char line[160];
@@ -63,7 +73,7 @@ std::string Text(const AnalysisReport& report) {
       text += "   TWSTRS " + std::to_string(bands[m.name]["score"].get<int>()) + ": " +
               bands[m.name]["words"].get<std::string>();
     }
-    if (m.status == Measurement::Status::kFlagged) text += "   FLAGGED: " + m.reason;
+    if (m.status == Measurement::Status::kFlagged) text += "   flagged";
     text += '\n';
   }
   for (const char* part : {"head", "torso"}) {
@@ -72,7 +82,7 @@ std::string Text(const AnalysisReport& report) {
                   report.details["residual_mm"][part].get<double>(), report.details["overlap"][part].get<double>());
     text += line;
   }
-  return text + "  axes: the camera's; standard uncertainties";
+  return text + Doubts(report) + "  axes: the camera's; standard uncertainties";
 }
 
 /// The photograph that a surface says it was made from, as hexadecimal text; empty where it says nothing.
@@ -133,7 +143,8 @@ Status RunAbsolute(const Neutral& capture, Context& context) {
   std::string text =
       "Head against torso in one capture, in anatomical axes (less certain than against a neutral one):\n";
   for (const Measurement& m : report->measurements) text += Line(m) + '\n';
-  text += "  landmarks " + report->details["landmarks_source"].get<std::string>() + "; standard uncertainties";
+  text += Doubts(*report) + "  landmarks " + report->details["landmarks_source"].get<std::string>() +
+          "; standard uncertainties";
   context.Output(ToJson(*report), text);
   return {};
 }

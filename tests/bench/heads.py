@@ -121,11 +121,12 @@ def busts(table, studio, count, first):
 
 
 def bodies(table, studio, data, count, people, first):
+    """`people`: numbers of the persons that the public body is made into."""
     folder = os.path.join(data, "makehuman")
     if not os.path.exists(folder):
         print(f"skipped: no {folder}")
         return
-    for person in range(people):
+    for person in people:
         body = head_bodies.MakeHuman(folder, person)
         random = np.random.default_rng(first + 100 * person)
         name = f"makehuman{person}"
@@ -241,7 +242,8 @@ def main():
     parser.add_argument("--data", required=True)
     parser.add_argument("--cache", help="keeps photographs and surfaces (70 MB each) for the next run")
     parser.add_argument("--count", type=int, default=6, help="poses of each body")
-    parser.add_argument("--people", type=int, default=3)
+    parser.add_argument("--people", type=int, default=3, help="how many persons the public body is made into")
+    parser.add_argument("--first-person", type=int, default=0)
     parser.add_argument("--repeats", type=int, default=10)
     parser.add_argument("--seed", type=int, default=1, help="of rig and poses")
     parser.add_argument("--only", action="append", choices=["bust", "bodies", "practice", "strangers", "repeats"])
@@ -262,7 +264,7 @@ def main():
         if "bust" in only:
             busts(table, studio, options.count, 1000 * options.seed)
         if "bodies" in only:
-            bodies(table, studio, options.data, options.count, options.people, 1000 * options.seed)
+            bodies(table, studio, options.data, options.count, range(options.first_person, options.first_person + options.people), 1000 * options.seed)
         if "practice" in only:
             practice(table, camera, options.data, cache)
         if "strangers" in only:
