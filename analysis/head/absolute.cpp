@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -11,6 +10,7 @@
 
 #include "analysis/head/angles.h"
 #include "analysis/head/detail/prepare.h"
+#include "analysis/head/detail/profile.h"
 #include "analysis/head/detail/report.h"
 #include "analysis/head/detail/search.h"
 
@@ -22,7 +22,6 @@ using detail::Cloud;
 using detail::Fit;
 using detail::Patch;
 
-constexpr double kBrowAboveChinMm = 85;      // where the nose's bridge ends in adults of 110 to 130 mm of face height
 constexpr double kLeastOverlap = 0.6;        // the far side of a turned face has no counterpart
 constexpr double kLargestAsymmetryMm = 2.5;  // of people's faces and chests about 1 mm
 constexpr double kLeastPlane = 0.94;         // cosine of 20 deg: a plane that is no reflection at all
@@ -37,38 +36,6 @@ std::optional<Eigen::Vector3d> SymmetryNormal(const Fit& of_mirror_image, const 
   if (solver.eigenvalues()[0] > -kLeastPlane) return std::nullopt;
   if (normal.dot(right) < 0) normal = -normal;
   return normal;
-}
-
-/// The point of the cloud nearest to a pixel, or none within 40 px (8 mm at 2 m).
-std::optional<Eigen::Vector3d> PointAt(const Cloud& cloud, const Eigen::Vector2d& pixel) {
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double far = (cloud.pixel[i].cast<double>() - pixel).squaredNorm();
-    if (far < least) {
-      least = far;
-      best = i;
-    }
-  }
-  if (!(least < 40 * 40)) return std::nullopt;
-  return cloud.point[best].cast<double>();
-}
-
-/// The front of the head's middle at a height above the chin (subject's up), within 8 mm up and down and 12 to the
-/// sides of the plane.
-std::optional<Eigen::Vector3d> ProfileAt(const Cloud& cloud, const Eigen::Matrix3d& subject_from_camera, double height,
-                                         const Eigen::Vector3d& on_plane, const Eigen::Vector3d& normal) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int count = 0;
-  for (const auto& point : cloud.point) {
-    const Eigen::Vector3d p = point.cast<double>();
-    if (std::abs((subject_from_camera * p).y() - height) > 8 || std::abs((p - on_plane).dot(normal)) > 12) continue;
-    if ((p - on_plane).norm() > 220) continue;
-    sum += p;
-    ++count;
-  }
-  if (count < 10) return std::nullopt;
-  return sum / count;
 }
 
 Status JudgeSymmetry(const Fit& fit, const std::string& part) {
@@ -104,7 +71,8 @@ Result<AnalysisReport> MeasureAbsolute(const Surface& capture, const Options& op
   const Patch torso_patch = detail::Mirrored(detail::MakePatch(fine, parts->torso));
   const Fit torso = detail::FitTorso(torso_patch, target, Eigen::Vector3d::Zero());
   if (auto judged = JudgeSymmetry(torso, "torso"); !judged) return Fail(judged.error());
-  const Patch head_patch = detail::Mirrored(detail::MakePatch(fine, parts->head));
+  const Patch face = detail::MakePatch(fine, parts->head);
+  const Patch head_patch = detail::Mirrored(face);
   const Fit head =
       detail::FitHead(head_patch, target, Eigen::Isometry3d::Identity(), parts->neck_in_camera, subject_from_camera);
   if (auto judged = JudgeSymmetry(head, "head"); !judged) return Fail(judged.error());
@@ -113,23 +81,24 @@ Result<AnalysisReport> MeasureAbsolute(const Surface& capture, const Options& op
     return Fail(ErrorCode::kMeasurementRefused, "no symmetry plane was found: take a neutral capture");
   }
 
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // on the plane: halfway between the patch and its mirror image
-  for (const detail::Pair& pair : head.pairs) middle += pair.target / static_cast<double>(head.pairs.size());
-  const auto given = [&](const std::optional<Eigen::Vector2d>& pixel) {
-    return pixel ? PointAt(fine, *pixel) : std::nullopt;
-  };
+  // Mirrored was about the face's own middle, which that leaves where it is; halfway to where it was laid is the plane.
+  const Eigen::Vector3d middle = detail::Middle(face.coarse);
+  const Eigen::Vector3d on_plane = (middle + head.target_from_patch * middle) / 2;
   const bool are_given = options.regions.brow_px && options.regions.chin_px;
-  const auto chin = are_given ? given(options.regions.chin_px)
-                              : ProfileAt(fine, subject_from_camera, parts->chin_mm + 10, middle, *head_right);
-  const auto brow = are_given
-                        ? given(options.regions.brow_px)
-                        : ProfileAt(fine, subject_from_camera, parts->chin_mm + kBrowAboveChinMm, middle, *head_right);
-  if (!chin || !brow || (*brow - *chin).norm() < 30) {
+  std::optional<detail::Profile> profile;
+  if (!are_given) {
+    profile = detail::FacialLine(fine, on_plane, *head_right, subject_from_camera.row(1).transpose());
+  } else if (const auto brow = detail::PointAt(fine, *options.regions.brow_px),
+             chin = detail::PointAt(fine, *options.regions.chin_px);
+             brow && chin) {
+    profile = detail::Profile{*brow, *chin};
+  }
+  if (!profile || (profile->brow - profile->chin).norm() < 30) {
     return Fail(ErrorCode::kMeasurementRefused,
                 "chin and brow are not both measured: give them as chin_px and brow_px");
   }
   const Eigen::Matrix3d torso_frame = Frame(*torso_right, options.up_in_camera.normalized());
-  const Eigen::Matrix3d head_frame = Frame(*head_right, *brow - *chin);
+  const Eigen::Matrix3d head_frame = Frame(*head_right, profile->brow - profile->chin);
   return detail::AbsoluteReport(head, torso, torso_frame.transpose() * head_frame, are_given, options);
 }
 

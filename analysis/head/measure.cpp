@@ -90,6 +90,17 @@ Status JudgeMirror(const Patch& torso, const Fit& fit, const Capture& capture, c
                   "): one of the photographs was mirrored; use both as the camera wrote them");
 }
 
+/// Stripe orders out of step are seen here as parts that do not fit: a refusal tells what the captures say of
+/// themselves.
+tl::unexpected<Error> Refused(Error error, const Surface& neutral, const Surface& pose) {
+  for (const auto& [which, surface] : {std::pair{"neutral", &neutral}, {"other", &pose}}) {
+    for (const std::string& warning : Warnings(*surface)) {
+      error.message += std::string("; the ") + which + " capture's reconstruction warns: " + warning;
+    }
+  }
+  return tl::unexpected(std::move(error));
+}
+
 FittedPart PartOf(const Fit& fit) {
   FittedPart part;
   part.pose_from_neutral = fit.target_from_patch;
@@ -123,11 +134,13 @@ Result<AnalysisReport> Measure(const Surface& neutral, const Surface& pose, cons
   const Patch torso_patch = detail::MakePatch(from->first, parts->torso);
   const Eigen::Vector3d shift = detail::Middle(to->second) - detail::Middle(from->second);
   const Fit torso = detail::FitTorso(torso_patch, capture, shift);
-  if (auto judged = JudgeMirror(torso_patch, torso, capture, shift); !judged) return Fail(judged.error());
-  if (auto judged = Judge(torso, "torso", options); !judged) return Fail(judged.error());
+  if (auto judged = JudgeMirror(torso_patch, torso, capture, shift); !judged) {
+    return Refused(judged.error(), neutral, pose);
+  }
+  if (auto judged = Judge(torso, "torso", options); !judged) return Refused(judged.error(), neutral, pose);
   const Fit head = detail::FitHead(detail::MakePatch(from->first, parts->head), capture, torso.target_from_patch,
                                    parts->neck_in_camera, subject_from_camera);
-  if (auto judged = Judge(head, "head", options); !judged) return Fail(judged.error());
+  if (auto judged = Judge(head, "head", options); !judged) return Refused(judged.error(), neutral, pose);
 
   const Eigen::Vector3d neck_moved =
       head.target_from_patch * parts->neck_in_camera - torso.target_from_patch * parts->neck_in_camera;

@@ -15,11 +15,13 @@ PIVOT_MM = np.array([0, -55.0, 2000])  # as the procedural bust's: the light's u
 
 
 class Rig:
-    """A rig that the code knows only by its own calibration: off the nominal one as another workshop's would be."""
+    """A rig that the code knows only by its own calibration: off the nominal one as another workshop's would be.
+    `known`: the code is given the true rig instead."""
 
-    def __init__(self, camera, cache, seed):
-        self.camera, self.folder = camera, os.path.join(cache, f"rig{seed}")
-        self.true, self.own = os.path.join(self.folder, "true.json"), os.path.join(self.folder, "own.json")
+    def __init__(self, camera, cache, seed, known=False):
+        self.camera, self.folder = camera, os.path.join(cache, f"rig{seed}" + ("known" if known else ""))
+        self.true = os.path.join(self.folder, "true.json")
+        self.own = self.true if known else os.path.join(self.folder, "own.json")
         os.makedirs(self.folder, exist_ok=True)
         if os.path.exists(self.own):
             return
@@ -34,6 +36,8 @@ class Rig:
                                                         0.0041 + off(0.0035), -0.0027 + off(0.0035)],
                                  "focal_stripes": 259.6 * (1 + off(0.02)), "center_order": 32.87 + off(1.5), "k1": -0.019 + off(0.015)},
                    "grating": {"stripes": 67, "direction": "horizontal"}, "working_distance_mm": [1700, 2300]}, open(self.true, "w"))
+        if known:
+            return
         steps = os.path.join(self.folder, "steps")
         must_run([camera, "simulate", "steps", "--out", steps, "--range", "large", "--rig", self.true, "--steps", 7, "--step-mm", 50])
         must_run([camera, "calibrate", "--reference", f"{steps}/reference.ply", "--steps", f"{steps}/steps.csv", "--stripes", 67,

@@ -44,9 +44,9 @@ TEST(HeadAbsolute, FlexionFollowsTheProfile) {
   const auto upright = MeasureAbsolute(Posed(0, 0, 0)), bowed = MeasureAbsolute(Posed(0, 12, 0));
   ASSERT_TRUE(upright) << upright.error().Describe();
   ASSERT_TRUE(bowed) << bowed.error().Describe();
-  // Everyone's profile has its own slope, so that its change says more; landmarks that are found slide on the skin as
-  // the head nods: half of the 9 deg stated.
-  EXPECT_NEAR(bowed->Find("flexion")->value - upright->Find("flexion")->value, 12, 4.5);
+  // Everyone's profile has its own slope, so that its change says more. The line on brow and chin turns with the head;
+  // a landmark's foremost points are known to 0.5 mm of noise and 1 mm of sampling, 100 mm apart: 0.8 deg.
+  EXPECT_NEAR(bowed->Find("flexion")->value - upright->Find("flexion")->value, 12, 1.6);
   EXPECT_GT(upright->Find("flexion")->uncertainty, 8);
   EXPECT_NEAR(upright->Find("flexion")->value, 0, 18);  // two standard uncertainties
 }

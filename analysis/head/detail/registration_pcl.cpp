@@ -101,14 +101,14 @@ struct Target::Impl {
     Matches matches;
     const Eigen::Matrix3f turn = motion.linear().cast<float>();
     const auto alike = static_cast<float>(std::cos(gate.normals_deg * std::numbers::pi / 180));
-    const auto far = static_cast<float>(gate.distance_mm * gate.distance_mm);
     pcl::Indices nearest(1);
     std::vector<float> squared(1);
     for (std::size_t i = 0; i < patch.size(); ++i) {
       const Eigen::Vector3d moved = motion * patch.point[i].cast<double>();
       const pcl::PointXYZ query(static_cast<float>(moved.x()), static_cast<float>(moved.y()),
                                 static_cast<float>(moved.z()));
-      if (tree->nearestKSearch(query, 1, nearest, squared) != 1 || squared[0] > far) continue;
+      // The nearest one, within the gate only: without an end the search for a far point visits most of the tree.
+      if (tree->radiusSearch(query, gate.distance_mm, nearest, squared, 1) < 1) continue;
       const auto k = static_cast<std::size_t>(nearest[0]);
       const Eigen::Vector3f normal = turn * patch.normal[i];
       if (normal.dot(cloud.normal[k]) < alike) continue;
