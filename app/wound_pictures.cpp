@@ -17,11 +17,44 @@ namespace fs = std::filesystem;
 constexpr double kDeepest_mm = 15;  // of the depth map's scale
 constexpr Rgb8 kLine{40, 220, 255}, kNothing{235, 235, 235}, kInk{40, 40, 40}, kSkin{190, 120, 90}, kBed{160, 20, 30};
 
-void DrawOutline(const Outline& outline, const wound::WoundMaps& maps, ImageRgb& picture) {
+// Cells are 0.3 mm: small wounds would be stamps.
+int EnlargementOf(const ImageRgb& picture) {
+  constexpr double kWide_px = 720;
+  return std::clamp(static_cast<int>(std::lround(kWide_px / std::max(1, picture.width()))), 1, 8);
+}
+
+ImageRgb Enlarged(const ImageRgb& picture, int times) {
+  ImageRgb large(picture.width() * times, picture.height() * times);
+  for (int row = 0; row < large.height(); ++row) {
+    for (int col = 0; col < large.width(); ++col) large(col, row) = picture(col / times, row / times);
+  }
+  return large;
+}
+
+// Below the picture: how long 10 mm are in its middle (left out for 0 pixels a mm), and what is seen.
+ImageRgb WithFooter(const ImageRgb& picture, double px_per_mm, const std::string& text) {
+  constexpr int kHigh_px = 26;
+  report::Drawing footer;
+  footer.width = picture.width();
+  footer.height = kHigh_px;
+  if (px_per_mm > 0) footer.Line({{10, 14}, {10 + 10 * px_per_mm, 14}}, 2, kInk);
+  footer.Text({16 + 10 * px_per_mm, 18}, 12, (px_per_mm > 0 ? "10 mm   " : "") + text, kInk);
+  const ImageRgb strip = Rasterise(footer, 1);
+  ImageRgb whole(picture.width(), picture.height() + kHigh_px, Rgb8{255, 255, 255});
+  Paste(picture, 0, whole);
+  for (int row = 0; row < strip.height(); ++row) {
+    for (int col = 0; col < strip.width(); ++col) {
+      if (whole.Contains(col, picture.height() + row)) whole(col, picture.height() + row) = strip(col, row);
+    }
+  }
+  return whole;
+}
+
+void DrawOutline(const Outline& outline, const wound::WoundMaps& maps, int times, ImageRgb& picture) {
   const std::size_t n = outline.polygon_px.size();
-  const double half = (maps.cell_px - 1) / 2.0;
   const auto cell = [&](const Eigen::Vector2d& p) {
-    return Eigen::Vector2d((p.x() - maps.col0_px - half) / maps.cell_px, (p.y() - maps.row0_px - half) / maps.cell_px);
+    const Eigen::Vector2d first(maps.col0_px - 0.5, maps.row0_px - 0.5);  // the sensor pixel's corner
+    return Eigen::Vector2d((p - first) * times / maps.cell_px - Eigen::Vector2d(0.5, 0.5));
   };
   for (std::size_t k = 0; k < n; ++k) {
     const Eigen::Vector2d a = cell(outline.polygon_px[k]), b = cell(outline.polygon_px[(k + 1) % n]);
@@ -29,7 +62,9 @@ void DrawOutline(const Outline& outline, const wound::WoundMaps& maps, ImageRgb&
     for (int s = 0; s <= steps; ++s) {
       const Eigen::Vector2d p = a + (b - a) * s / steps;
       const int col = static_cast<int>(std::lround(p.x())), row = static_cast<int>(std::lround(p.y()));
-      if (picture.Contains(col, row)) picture(col, row) = kLine;
+      for (const auto& [dc, dr] : {std::pair{0, 0}, std::pair{1, 0}, std::pair{0, 1}}) {
+        if (picture.Contains(col + dc, row + dr)) picture(col + dc, row + dr) = kLine;
+      }
     }
   }
 }
@@ -46,18 +81,23 @@ ImageRgb Photo(const Surface& surface, const wound::WoundMaps& maps) {
   return picture;
 }
 
-ImageRgb DepthPicture(const wound::WoundMaps& maps) {
+ImageRgb Depths(const wound::WoundMaps& maps) {
   const ImageF& depth = maps.depth_mm;
-  const int bar_px = static_cast<int>(kBarWidth) + 1;
-  ImageRgb picture(depth.width() + bar_px, depth.height(), Rgb8{255, 255, 255});
+  ImageRgb picture(depth.width(), depth.height());
   for (int row = 0; row < depth.height(); ++row) {
     for (int col = 0; col < depth.width(); ++col) {
       const float d = depth(col, row);
       picture(col, row) = std::isfinite(d) ? Viridis(static_cast<double>(d) / kDeepest_mm) : kNothing;
     }
   }
-  Paste(ColourBar({0, kDeepest_mm, "mm", false}, depth.height(), 1), depth.width(), picture);
   return picture;
+}
+
+ImageRgb WithDepthBar(const ImageRgb& picture) {
+  ImageRgb whole(picture.width() + static_cast<int>(kBarWidth) + 1, picture.height(), Rgb8{255, 255, 255});
+  Paste(picture, 0, whole);
+  Paste(ColourBar({0, kDeepest_mm, "mm", false}, picture.height(), 1), picture.width(), whole);
+  return whole;
 }
 
 // One section with equal scales both ways; NaN parts the bed's line.
@@ -119,10 +159,16 @@ Result<std::vector<std::string>> WriteWoundPictures(const fs::path& folder, cons
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) return Fail(ErrorCode::kIo, "cannot make the folder " + folder.string() + ": " + failed.message());
-  ImageRgb photo = Photo(surface, maps), depth = DepthPicture(maps);
-  const ImageRgb view = ViewOfWound(maps, photo);
-  DrawOutline(outline, maps, photo);
-  DrawOutline(outline, maps, depth);
+  const ImageRgb colours = Photo(surface, maps);
+  const int times = EnlargementOf(colours);
+  const double px_per_mm = times / maps.cell_mm;
+  ImageRgb photo = Enlarged(colours, times), depth = Enlarged(Depths(maps), times);
+  DrawOutline(outline, maps, times, photo);
+  DrawOutline(outline, maps, times, depth);
+  photo = WithFooter(photo, px_per_mm, "grey: nothing measured");
+  depth = WithFooter(WithDepthBar(depth), px_per_mm, "depth below the virtual skin");
+  const ImageRgb view =
+      WithFooter(ViewOfWound(maps, colours), 0, "light blue: boundary; dark blue: virtual skin, lines 4 mm apart");
   std::vector<std::string> written;
   for (const auto& [name, picture] :
        {std::pair<const char*, const ImageRgb*>{"boundary.png", &photo}, {"depth.png", &depth}, {"view.png", &view}}) {
@@ -132,7 +178,9 @@ Result<std::vector<std::string>> WriteWoundPictures(const fs::path& folder, cons
     written.push_back((folder / name).string());
   }
   const fs::path sections = folder / "sections.svg";
-  if (Status done = WriteText(sections, ToSvg(Sections(maps))); !done) return Fail(done.error());
+  std::string svg = ToSvg(Sections(maps));
+  svg.insert(svg.find("<svg") + 4, " xmlns=\"http://www.w3.org/2000/svg\"");  // as a file of its own
+  if (Status done = WriteText(sections, svg); !done) return Fail(done.error());
   written.push_back(sections.string());
   return written;
 }

@@ -126,22 +126,31 @@ void DrawSurface(const wound::WoundMaps& maps, const ImageRgb& colours, const Ey
   }
 }
 
-// The virtual skin where it lies above the bed: sides of cells that part two strips of the net.
+// One triangle's share of the net: where its first or second coordinate is a multiple of the net's step.
+void DrawNetAcross(const std::array<Vector3d, 3>& skin, const Eye& eye, Canvas& canvas) {
+  for (const int along : {0, 1}) {
+    const double low = std::min({skin[0][along], skin[1][along], skin[2][along]});
+    const double line = kNet_mm * (std::floor(low / kNet_mm) + 1);
+    std::vector<Vector3d> ends;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3d &a = skin[k], &b = skin[(k + 1) % 3];
+      if ((a[along] < line) == (b[along] < line)) continue;
+      ends.emplace_back(a + (b - a) * (line - a[along]) / (b[along] - a[along]));
+    }
+    if (ends.size() == 2) canvas.Line(canvas.Place(eye.Of(ends[0])), canvas.Place(eye.Of(ends[1])), kNet, 0.7, 1);
+  }
+}
+
+// The virtual skin where it lies above the bed.
 void DrawNet(const wound::WoundMaps& maps, const Eye& eye, Canvas& canvas) {
   constexpr float kLeast_mm = 0.2F;
-  const auto strip = [](float x) { return std::floor(static_cast<double>(x) / kNet_mm); };
   const auto above = [&](int i, int j) { return maps.depth_mm(i, j) > kLeast_mm; };
-  const auto place = [&](int i, int j) {
-    return canvas.Place(eye.Of({maps.u_mm(i, j), maps.v_mm(i, j), maps.skin_mm(i, j)}));
-  };
+  const auto skin = [&](int i, int j) { return Vector3d(maps.u_mm(i, j), maps.v_mm(i, j), maps.skin_mm(i, j)); };
   for (int j = 0; j + 1 < maps.skin_mm.height(); ++j) {
     for (int i = 0; i + 1 < maps.skin_mm.width(); ++i) {
-      if (!above(i, j) || !above(i + 1, j) || !above(i, j + 1)) continue;
-      for (const ImageF* along : {&maps.u_mm, &maps.v_mm}) {
-        const double here = strip((*along)(i, j));
-        if (here != strip((*along)(i + 1, j))) canvas.Line(place(i, j), place(i, j + 1), kNet, 0.5, 1);
-        if (here != strip((*along)(i, j + 1))) canvas.Line(place(i, j), place(i + 1, j), kNet, 0.5, 1);
-      }
+      if (!above(i, j) || !above(i + 1, j) || !above(i, j + 1) || !above(i + 1, j + 1)) continue;
+      DrawNetAcross({skin(i, j), skin(i + 1, j), skin(i + 1, j + 1)}, eye, canvas);
+      DrawNetAcross({skin(i, j), skin(i + 1, j + 1), skin(i, j + 1)}, eye, canvas);
     }
   }
 }

@@ -56,7 +56,7 @@ nlohmann::json NullsAsJson(const IntactSkin& intact, std::size_t model) {
 
 }  // namespace
 
-std::string_view MethodVersion() { return "wound/3"; }
+std::string_view MethodVersion() { return "wound/4"; }
 
 Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, const Options& options,
                                WoundMaps* maps) {

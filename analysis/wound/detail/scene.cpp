@@ -10,7 +10,7 @@ namespace striae::wound {
 namespace {
 
 constexpr double kLeastBoundaryShare = 0.85;
-constexpr double kMostHoles = 0.4, kMostBeyondBridge = 0.02;  // of the cells inside the outline
+constexpr double kMostHoles = 0.7, kMostBeyondBridge = 0.02;  // of the cells inside the outline
 constexpr int kLeastCells = 30;
 
 std::string Percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }

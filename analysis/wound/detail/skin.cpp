@@ -79,6 +79,8 @@ std::string_view ToString(SkinModel model) {
       return "q+c4";
     case SkinModel::kQuadricSpline:
       return "q+s";
+    case SkinModel::kFaired:
+      return "q+s+f";
   }
   return "";
 }
@@ -132,6 +134,7 @@ double Skin::Height(double u, double v) const {
     for (int j = 0; i + j <= order; ++j, p *= v) w += coefficients[k++] * p;
   }
   if (spline) w += spline->At(u, v);
+  if (faired) w += faired->At(u, v);
   return w * radius_mm;
 }
 
@@ -175,6 +178,7 @@ Skin FitSkin(SkinModel model, const std::vector<Eigen::Vector3d>& ring, const Ri
   Skin skin;
   skin.model = model;
   skin.radius_mm = RadiusOf(ring);
+  const bool splined = model == SkinModel::kQuadricSpline || model == SkinModel::kFaired;
   const bool stiff = model != SkinModel::kC4 && model != SkinModel::kQuadricC4;
   skin.order = stiff ? 2 : 4;  // a quadratic on a quadric's residual only rounds it off
   auto points = Scaled(ring, 1 / skin.radius_mm);
@@ -192,7 +196,7 @@ Skin FitSkin(SkinModel model, const std::vector<Eigen::Vector3d>& ring, const Ri
     if (skin.quadric) {
       for (auto& p : points) p.z() -= skin.quadric->At(p.x(), p.y()).value_or(0);
     } else {
-      if (model != SkinModel::kQuadricSpline) skin.model = stiff ? SkinModel::kC2 : SkinModel::kC4;
+      if (!splined) skin.model = stiff ? SkinModel::kC2 : SkinModel::kC4;
       skin.fell_back = true;
     }
   }
@@ -202,7 +206,7 @@ Skin FitSkin(SkinModel model, const std::vector<Eigen::Vector3d>& ring, const Ri
     Monomials(points[k].x(), points[k].y(), skin.order, terms);
     points[k].z() -= terms.dot(fit.coefficients);
   }
-  if (model == SkinModel::kQuadricSpline) skin.spline = FitSpline(points, weights.weight);
+  if (splined) skin.spline = FitSpline(points, weights.weight);
   double sum = 0, total = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double r = points[k].z() - (skin.spline ? skin.spline->At(points[k].x(), points[k].y()) : 0);
@@ -212,6 +216,11 @@ Skin FitSkin(SkinModel model, const std::vector<Eigen::Vector3d>& ring, const Ri
   skin.rms_mm = std::sqrt(sum / std::max(total, 1e-9)) * skin.radius_mm;
   skin.coefficients = std::move(fit.coefficients);
   skin.inverse_normal = std::move(fit.inverse_normal);
+  if (model == SkinModel::kFaired && !skin.fell_back) {
+    const double r = skin.radius_mm;
+    skin.faired = FairAcross(points, weights.weight, [&](double u, double v) { return skin.Height(u * r, v * r) / r; });
+    skin.fell_back = !skin.faired;
+  }
   return skin;
 }
 

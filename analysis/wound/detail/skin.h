@@ -8,17 +8,20 @@
 
 #include <Eigen/Core>
 
+#include "analysis/wound/detail/fairing.h"
 #include "analysis/wound/detail/quadric.h"
 #include "analysis/wound/detail/spline.h"
 
 namespace striae::wound {
 
 /// c2: quadratic height; c4: quartic height; q: quadric in space; q+c4: quadric, then a quartic on its residual; q+s:
-/// quadric, then a smoothing spline on its residual.
-enum class SkinModel { kC2, kC4, kQuadric, kQuadricC4, kQuadricSpline };
+/// quadric, then a smoothing spline on its residual; q+s+f: CGAL's fairing across the wound, from the rim that q+s
+/// gives.
+enum class SkinModel { kC2, kC4, kQuadric, kQuadricC4, kQuadricSpline, kFaired };
 /// Those that compete for a wound, the usual one first.
-inline constexpr std::array<SkinModel, 5> kSkinModels = {SkinModel::kQuadricC4, SkinModel::kC4, SkinModel::kQuadric,
-                                                         SkinModel::kC2, SkinModel::kQuadricSpline};
+inline constexpr std::array<SkinModel, 6> kSkinModels = {SkinModel::kQuadricC4,     SkinModel::kC4,
+                                                         SkinModel::kQuadric,       SkinModel::kC2,
+                                                         SkinModel::kQuadricSpline, SkinModel::kFaired};
 std::string_view ToString(SkinModel model);
 
 /// Wound frame: origin at the ring's centre, w towards the camera, lengths in mm.
@@ -36,9 +39,10 @@ Frame FitFrame(const std::vector<Eigen::Vector3d>& points_in_camera);
 class Skin {
  public:
   SkinModel model = SkinModel::kC4;
-  double radius_mm = 1;            ///< coordinates are divided by it before anything else
-  std::optional<Quadric> quadric;  ///< the base of q, q+c4, q+s
-  std::optional<Spline> spline;    ///< on top of everything else; q+s only
+  double radius_mm = 1;               ///< coordinates are divided by it before anything else
+  std::optional<Quadric> quadric;     ///< the base of q, q+c4, q+s
+  std::optional<Spline> spline;       ///< on top of them; q+s, q+s+f
+  std::optional<FairedSheet> faired;  ///< on top of everything else; q+s+f
   int order = 4;
   Eigen::VectorXd coefficients;    ///< of Terms(), in units of radius_mm
   Eigen::MatrixXd inverse_normal;  ///< inverse of the weighted normal matrix of the coefficients
