@@ -99,12 +99,28 @@ def wedges(upper, lower, triangles):
     return tetrahedron(a, b, c, r) + tetrahedron(a, b, r, q) + tetrahedron(a, q, r, p)
 
 
+def rim(skin, rho, radius):
+    """720 points on the skin where rho is 1."""
+    angle = np.linspace(0, 2 * np.pi, 721)[:-1]
+    lo, hi = np.zeros(720), np.full(720, 3 * radius)
+    for _ in range(50):
+        mid = (lo + hi) / 2
+        out = rho(mid * np.cos(angle), mid * np.sin(angle)) > 1
+        lo, hi = np.where(out, lo, mid), np.where(out, mid, hi)
+    return skin(lo * np.cos(angle), lo * np.sin(angle))
+
+
+def body_and_wound(kind, seed, depth, radius, body_radius, oedema=0.0):
+    """The skin and its span across, the wound's rho and displacement, and what of the truth is drawn by lot."""
+    rng = np.random.default_rng(seed)
+    skin, span = {"limb": lambda: limb(rng, body_radius), "calf": lambda: limb(rng, body_radius, 0.12),
+                  "heel": lambda: heel(rng, body_radius), "flat": lambda: flat(rng, 0)}[kind]()
+    return skin, span, *crater(rng, depth, radius, oedema)
+
+
 def make(kind, seed, depth, radius, body_radius, oedema=0.0):
     """Vertices (mm), triangles, colours, outline points on the skin (72) and the truth."""
-    rng = np.random.default_rng(seed)
-    skin, (low, high) = {"limb": lambda: limb(rng, body_radius), "calf": lambda: limb(rng, body_radius, 0.12),
-                         "heel": lambda: heel(rng, body_radius), "flat": lambda: flat(rng, 0)}[kind]()
-    rho, displacement, truth = crater(rng, depth, radius, oedema)
+    skin, (low, high), rho, displacement, truth = body_and_wound(kind, seed, depth, radius, body_radius, oedema)
     fine = 1.9 * radius + (25 if oedema else 2)
     us, vs = knots(low, high, min(fine, 0.9 * high)), knots(-230, 230, fine)
     u, v = np.meshgrid(us, vs)
@@ -119,20 +135,15 @@ def make(kind, seed, depth, radius, body_radius, oedema=0.0):
     # Below and above apart: the volume of the wedges between skin and what lies below it.
     lower = (whole - np.maximum(d, 0)[..., None] * normals(skin, u, v)).reshape(-1, 3)
     volume = abs(wedges(flat_whole, lower, triangles[inside]).sum())
-    angle = np.linspace(0, 2 * np.pi, 73)[:-1]
-    lo, hi = np.zeros(72), np.full(72, 3 * radius)
-    for _ in range(50):
-        mid = (lo + hi) / 2
-        out = rho(mid * np.cos(angle), mid * np.sin(angle)) > 1
-        lo, hi = np.where(out, lo, mid), np.where(out, mid, hi)
-    outline = skin(lo * np.cos(angle), lo * np.sin(angle))
+    line = rim(skin, rho, radius)
     shade = 1 + 0.08 * np.sin(u / 7 + 2 * np.sin(v / 11)) * np.sin(v / 9 + 1.3)
     bed = np.clip((1.03 - r.reshape(u.shape)) / 0.06, 0, 1)[..., None]
     colour = (1 - bed) * np.array([200, 160, 140]) + bed * np.array([178, 100, 90])
     colour = np.clip(colour * shade[..., None], 0, 255).astype(np.uint8).reshape(-1, 3)
     truth |= {"kind": kind, "volume_ml": volume / 1000, "area_cm2": areas.sum() / 100,
-              "depth_mm": float(d.max()), "mean_depth_mm": volume / areas.sum(), "oedema_mm": oedema}
-    return flat_body, triangles, colour, outline, truth
+              "depth_mm": float(d.max()),
+              "perimeter_mm": float(np.linalg.norm(line - np.roll(line, 1, 0), axis=1).sum()), "mean_depth_mm": volume / areas.sum(), "oedema_mm": oedema}
+    return flat_body, triangles, colour, line[::10], truth
 
 
 def write_ply(path, points, triangles, colour):

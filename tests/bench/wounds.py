@@ -140,7 +140,8 @@ def compare(report, truth):
     """Relative errors and errors over standard uncertainties."""
     values = {m["name"]: m for m in report["measurements"]}
     result = {}
-    for name, key in (("volume", "volume_ml"), ("area", "area_cm2"), ("depth_max", "depth_mm")):
+    for name, key in (("volume", "volume_ml"), ("area", "area_cm2"), ("depth_max", "depth_mm"),
+                      ("perimeter", "perimeter_mm")):
         m = values[name]
         result[name] = (m["value"] / truth[key] - 1, (m["value"] - truth[key]) / m["uncertainty"], m["status"] == "flagged")
     result["skin_flagged"] = any(word in values["volume"].get("reason", "") for word in ("skin", "models"))
@@ -216,8 +217,8 @@ def oedema(options, rigs):
 def repeats(options, rigs):
     """Ten hand-held captures of one wound, each outlined anew."""
     for wound_index in range(options.repeats):
-        kind = ["limb", "calf", "flat"][wound_index % 3]
-        depth, radius, body = [(5, 12, 55), (8, 18, 60), (4, 9, 0)][wound_index % 3]
+        kind = ["limb", "flat", "heel", "calf"][wound_index % 4]
+        depth, radius, body = [(5, 12, 55), (4, 9, 0), (4, 10, 43), (8, 18, 60)][wound_index % 4]
         wound = (kind, 800 + wound_index, depth, radius, body)
         volumes, areas = [], []
         for k in range(10):
