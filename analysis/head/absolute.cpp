@@ -25,17 +25,32 @@ using detail::Patch;
 constexpr double kLeastOverlap = 0.6;        // the far side of a turned face has no counterpart
 constexpr double kLargestAsymmetryMm = 2.5;  // of people's faces and chests about 1 mm
 constexpr double kLeastPlane = 0.94;         // cosine of 20 deg: a plane that is no reflection at all
+constexpr double kLeastTurnCosine = 0.985;   // 10 deg about the plane's normal
+constexpr double kLargestGlideMm = 15;
 
-/// Unit normal of the symmetry plane towards the subject's right, camera axes.
-std::optional<Eigen::Vector3d> SymmetryNormal(const Fit& of_mirror_image, const Eigen::Vector3d& right) {
+/// Symmetry plane in camera axes.
+struct Plane {
+  Eigen::Vector3d point, normal;  ///< the unit normal towards the subject's right
+};
+
+/// The plane at which `of_mirror_image` reflects a patch with that middle; none where the motion is no reflection: one
+/// turns nothing about its normal, and shifts nothing within its plane.
+std::optional<Plane> SymmetryPlane(const Fit& of_mirror_image, const Eigen::Vector3d& middle,
+                                   const Eigen::Vector3d& right) {
   Eigen::Matrix3d reflection = of_mirror_image.target_from_patch.linear();
   reflection.col(0) *= -1;  // the mirror image was made by x -> -x
   // For an exact reflection I - 2 n n^T; else the symmetric part's least eigenvector is the nearest.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver((reflection + reflection.transpose()) / 2);
   Eigen::Vector3d normal = solver.eigenvectors().col(0);
-  if (solver.eigenvalues()[0] > -kLeastPlane) return std::nullopt;
   if (normal.dot(right) < 0) normal = -normal;
-  return normal;
+  // The mirror image was made about the patch's own middle, which that left where it was.
+  const Eigen::Vector3d shift = of_mirror_image.target_from_patch * middle - middle;
+  const double within = (shift - shift.dot(normal) * normal).norm();
+  const double turn_cosine = (reflection.trace() + 1) / 2;
+  if (solver.eigenvalues()[0] > -kLeastPlane || turn_cosine < kLeastTurnCosine || within > kLargestGlideMm) {
+    return std::nullopt;
+  }
+  return Plane{middle + shift / 2, normal};
 }
 
 Status JudgeSymmetry(const Fit& fit, const std::string& part) {
@@ -68,26 +83,22 @@ Result<AnalysisReport> MeasureAbsolute(const Surface& capture, const Options& op
   const Capture target{detail::Target(std::move(clouds->second)), detail::Target(std::move(clouds->first))};
   const Eigen::Vector3d right = subject_from_camera.row(2).transpose();
 
-  const Patch torso_patch = detail::Mirrored(detail::MakePatch(fine, parts->torso));
-  const Fit torso = detail::FitTorso(torso_patch, target, Eigen::Vector3d::Zero());
+  const Patch chest = detail::MakePatch(fine, parts->torso), face = detail::MakePatch(fine, parts->head);
+  const Fit torso = detail::FitTorso(detail::Mirrored(chest), target, Eigen::Vector3d::Zero());
   if (auto judged = JudgeSymmetry(torso, "torso"); !judged) return Fail(judged.error());
-  const Patch face = detail::MakePatch(fine, parts->head);
-  const Patch head_patch = detail::Mirrored(face);
-  const Fit head =
-      detail::FitHead(head_patch, target, Eigen::Isometry3d::Identity(), parts->neck_in_camera, subject_from_camera);
+  const Fit head = detail::FitHead(detail::Mirrored(face), target, Eigen::Isometry3d::Identity(), parts->neck_in_camera,
+                                   subject_from_camera);
   if (auto judged = JudgeSymmetry(head, "head"); !judged) return Fail(judged.error());
-  const auto torso_right = SymmetryNormal(torso, right), head_right = SymmetryNormal(head, right);
-  if (!torso_right || !head_right) {
+  const auto torso_plane = SymmetryPlane(torso, detail::Middle(chest.coarse), right);
+  const auto head_plane = SymmetryPlane(head, detail::Middle(face.coarse), right);
+  if (!torso_plane || !head_plane) {
     return Fail(ErrorCode::kMeasurementRefused, "no symmetry plane was found: take a neutral capture");
   }
 
-  // Mirrored was about the face's own middle, which that leaves where it is; halfway to where it was laid is the plane.
-  const Eigen::Vector3d middle = detail::Middle(face.coarse);
-  const Eigen::Vector3d on_plane = (middle + head.target_from_patch * middle) / 2;
   const bool are_given = options.regions.brow_px && options.regions.chin_px;
   std::optional<detail::Profile> profile;
   if (!are_given) {
-    profile = detail::FacialLine(fine, on_plane, *head_right, subject_from_camera.row(1).transpose());
+    profile = detail::FacialLine(fine, head_plane->point, head_plane->normal, subject_from_camera.row(1).transpose());
   } else if (const auto brow = detail::PointAt(fine, *options.regions.brow_px),
              chin = detail::PointAt(fine, *options.regions.chin_px);
              brow && chin) {
@@ -97,8 +108,8 @@ Result<AnalysisReport> MeasureAbsolute(const Surface& capture, const Options& op
     return Fail(ErrorCode::kMeasurementRefused,
                 "chin and brow are not both measured: give them as chin_px and brow_px");
   }
-  const Eigen::Matrix3d torso_frame = Frame(*torso_right, options.up_in_camera.normalized());
-  const Eigen::Matrix3d head_frame = Frame(*head_right, profile->brow - profile->chin);
+  const Eigen::Matrix3d torso_frame = Frame(torso_plane->normal, options.up_in_camera.normalized());
+  const Eigen::Matrix3d head_frame = Frame(head_plane->normal, profile->brow - profile->chin);
   return detail::AbsoluteReport(head, torso, torso_frame.transpose() * head_frame, are_given, options);
 }
 

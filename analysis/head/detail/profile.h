@@ -18,9 +18,10 @@ struct Profile {
 };
 
 /// The line that rests on brow and chin (glabella and pogonion) within the symmetry plane, relative to `on_plane`.
-/// Heights are along the line itself, found by repetition, so that it turns with the head whatever its pose. `right`
-/// is the plane's unit normal, `up` where to begin. None where nose, brow or chin are not measured.
+/// Heights are along the line itself, found by repetition from `up` on, so that it turns with the head. `right` is the
+/// plane's unit normal. None where nose, brow or chin are not measured, the nose does not stand out before the line, or
+/// that would lie more than 50 degrees off `up`.
 std::optional<Profile> FacialLine(const Cloud& cloud, const Eigen::Vector3d& on_plane, const Eigen::Vector3d& right,
-                                  Eigen::Vector3d up);
+                                  const Eigen::Vector3d& up);
 
 }  // namespace striae::head::detail
