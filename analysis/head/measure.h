@@ -36,10 +36,9 @@ struct Options {
   double least_observability_mm = 2.5;
   /// Standard uncertainty of the camera's axes as the subject's axes, about each axis.
   double axes_sd_deg = 2.0;
-  /// Part of every angle's uncertainty that resampling cannot see: what is wrong all over a patch (expression, a
-  /// breath, field curvature of the calibration). With it 96 % of the angles of 33 pairs through photographs lay within
-  /// two standard uncertainties; 80 % without.
-  double floor_sd_deg = 0.12;
+  /// Part of every angle's uncertainty that neither resampling nor the residuals show: field curvature of the
+  /// calibration.
+  double floor_sd_deg = 0.05;
   /// Of absolute angles: people's faces and chests are asymmetric, and their profiles slope differently.
   double symmetry_sd_deg = 3.0, profile_sd_deg = 9.0;
   int resamples = 200;  ///< of the block bootstrap

@@ -58,7 +58,7 @@ class Table:
             e = "-" if row["error"] is None else f"{row['error']:.2f}"
             more = "" if row["error"] is None else f" rms {row['rms']} u {row['u']} {row['seconds']:.1f} s"
             print(f"    {group:24} {name:34} turned {row['turned']:5.1f} error {e} {row['why']}{more} {pose.ply}", flush=True)
-        if self.discard and pose.ply is not None and pose.ply != neutral.ply:
+        if self.discard and pose.ply is not None and group != "strangers":  # whose poses are other people's neutral captures
             os.remove(pose.ply)
         return row
 

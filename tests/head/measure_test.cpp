@@ -78,7 +78,7 @@ TEST_P(HeadPoses, AreMeasuredWhileThePersonMovesAsAWhole) {
     EXPECT_EQ(m.unit, "deg");
     EXPECT_EQ(m.code.scheme, "99STRIAE");
     EXPECT_EQ(m.status, Measurement::Status::kOk);
-    EXPECT_GE(m.uncertainty, 0.12);  // never better than what is wrong all over a patch
+    EXPECT_GE(m.uncertainty, 0.05);  // never better than what is wrong all over a patch
     EXPECT_LT(m.uncertainty, 4);
   }
 }
