@@ -16,8 +16,7 @@
 namespace striae::wound {
 namespace {
 
-constexpr double kLineSmoothing = 3;  // sd of the smoothing of a drawn line over the roughness of its points
-constexpr double kProudNoise = 3;     // tissue above the skin counts from this many sd of the smoothed ring
+constexpr double kProudNoise = 3;  // tissue above the skin counts from this many sd of the smoothed ring
 
 Status CheckOptions(const Options& o) {
   const bool positive = o.cell_mm > 0 && o.margin_mm >= 0 && o.ring_width_mm > 0 && o.smoothing_mm >= 0 &&
@@ -43,6 +42,13 @@ double ResolutionOf(const Surface& surface, double pixel_mm, const Options& opti
   constexpr double kWindow = 0.9;  // relative width of the Hann window
   const auto period_px = CarrierPeriodOf(surface);
   return period_px ? *period_px * pixel_mm / (std::sqrt(8.0) * kWindow) : options.resolution_mm;
+}
+
+// Sd of the smoothing that frees a line of its shakes: four times its roughness, and not less than its points' spacing,
+// but nothing for a line without shakes.
+double LineSmoothing(const Scene& scene, const LineStudy& line, std::size_t points) {
+  const double spacing = PolygonField(scene.outline).perimeter() / static_cast<double>(points);
+  return std::max(4 * line.roughness, std::min(spacing, 8 * line.roughness));
 }
 
 nlohmann::json NullsAsJson(const IntactSkin& intact, std::size_t model) {
@@ -94,7 +100,7 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   findings.resolution_mm = ResolutionOf(surface, scene.patch.pixel_mm, options);
   findings.deepest = FindDeepest(scene, bed, a.skin, findings.depths, options.deepest_mm, findings.resolution_mm);
   findings.boundary = MeasureBoundary(scene.outline, a.skin, options.perimeter_step_mm, scene.patch.cell_mm(),
-                                      kLineSmoothing * plus->line.roughness);
+                                      LineSmoothing(scene, plus->line, outline.polygon_px.size()));
   findings.line = plus->line;
   const Budget budget = DrawBudget(scene, bed, *choice, model, intact, findings, options, flags);
 

@@ -255,7 +255,12 @@ Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_m
     boundary.area_mm2 += area * std::sqrt(1 + skin.Gradient(p.x(), p.y()).squaredNorm());
   });
   std::vector<Eigen::Vector3d> draped;
-  const Polygon line = Smoothed(Resample(outline, step_mm), smoothing_mm);
+  // A shaky line is longer than what it goes around: the smoothing is meant along the latter.
+  const Polygon even = Resample(outline, step_mm);
+  Polygon line = even;
+  for (int round = 0; round < 4; ++round) {
+    line = Smoothed(even, smoothing_mm * PolygonField(even).perimeter() / PolygonField(line).perimeter());
+  }
   for (const auto& p : line) draped.emplace_back(p.x(), p.y(), skin.Height(p.x(), p.y()));
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
   for (std::size_t a = 0; a < draped.size(); ++a) {
