@@ -17,7 +17,6 @@ namespace striae::head {
 namespace {
 
 using detail::Capture;
-using detail::Cloud;
 using detail::Fit;
 using detail::Patch;
 
