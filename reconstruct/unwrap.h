@@ -23,6 +23,8 @@ struct Unwrapped {
 /// form; the paper's R = 1/D orders the pixels alike). Pixels beside the mask's rim are the least reliable. Equal edges
 /// keep their order in the image, so the result does not depend on anything but the input.
 /// `wrapped` (given up to the result when moved in) in rad within [-pi, pi]; sizes must agree (std::logic_error).
-Unwrapped Unwrap(ImageF wrapped, const Mask& mask);
+/// With `misfit` (PhaseResult's) what is no measurement is joined last: a phase may be smooth where it is wrong, and
+/// second differences alone then lead the jump between two shadows through the skin beside them.
+Unwrapped Unwrap(ImageF wrapped, const Mask& mask, const Image<std::uint8_t>* misfit = nullptr);
 
 }  // namespace striae::reconstruct

@@ -144,9 +144,8 @@ std::vector<std::uint32_t> CarryingFlow(const std::vector<TreeEdge>& tree, const
 
 }  // namespace
 
-std::optional<std::vector<std::uint32_t>> FindCuts(const ImageF& wrapped, const Mask& mask, std::size_t budget) {
-  const Edges edges(wrapped, mask);
-  Faces faces(wrapped, mask, budget / 4);  // each puts four edges into a heap
+std::optional<std::vector<std::uint32_t>> FindCuts(const Edges& edges, std::size_t budget) {
+  Faces faces(edges.wrapped(), edges.mask(), budget / 4);  // each puts four edges into a heap
   if (faces.overcharged()) return std::nullopt;
   TreeGrowth growth(faces, edges, budget);
   if (!growth.Grow()) return std::nullopt;

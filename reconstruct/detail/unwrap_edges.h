@@ -24,9 +24,12 @@ inline int StepBetween(float from, float to) { return TurnsIn(from - to); }
 /// The pixel grid's edges. An edge is 2 * pixel for the one to the right, 2 * pixel + 1 for the one downwards.
 class Edges {
  public:
-  Edges(const ImageF& wrapped, const Mask& mask) : wrapped_(wrapped), mask_(mask) {}
+  /// All must stay; `misfit` may be missing.
+  Edges(const ImageF& wrapped, const Mask& mask, const Image<std::uint8_t>* misfit = nullptr)
+      : wrapped_(wrapped), mask_(mask), misfit_(misfit) {}
 
-  /// D, the sum of squared second differences in four directions; the rim of image and mask is the least reliable.
+  /// D, the sum of squared second differences in four directions, with the misfit's share; the rim of image and mask is
+  /// the least reliable.
   [[nodiscard]] float Unreliability(int x, int row) const {
     constexpr float kLeastReliable = 1e6F;  // above any D: second differences are at most 4 pi
     if (x < 1 || row < 1 || x + 1 >= mask_.width() || row + 1 >= mask_.height()) return kLeastReliable;
@@ -37,7 +40,7 @@ class Edges {
     const auto second = [&](float before, float after) { return wrap(before - at[0]) - wrap(at[0] - after); };
     const float h = second(at[-1], at[1]), v = second(up[0], down[0]);
     const float a = second(up[-1], down[1]), b = second(up[1], down[-1]);
-    return h * h + v * v + a * a + b * b;
+    return h * h + v * v + a * a + b * b + OfMisfit(x, row);
   }
 
   static constexpr std::uint32_t kKeys = 1U << 22;
@@ -57,10 +60,19 @@ class Edges {
   }
   [[nodiscard]] bool HasRight(int x, int row) const { return (mask_(x, row) & mask_(x + 1, row)) != 0; }
   [[nodiscard]] bool HasDown(int x, int row) const { return (mask_(x, row) & mask_(x, row + 1)) != 0; }
+  [[nodiscard]] const ImageF& wrapped() const { return wrapped_; }
+  [[nodiscard]] const Mask& mask() const { return mask_; }
   [[nodiscard]] int width() const { return mask_.width(); }
   [[nodiscard]] int height() const { return mask_.height(); }
 
  private:
+  /// Above the D of any smooth phase wherever the light does not follow its stripes, so that a jump runs there.
+  [[nodiscard]] float OfMisfit(int x, int row) const {
+    constexpr float kAtMisfitOne = 20;  // rad^2
+    if (misfit_ == nullptr) return 0;
+    const float root = static_cast<float>((*misfit_)(x, row)) / 255;
+    return kAtMisfitOne * root * root * root * root;
+  }
   [[nodiscard]] std::uint32_t Pixel(int x, int row) const {
     return static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(mask_.width()) + static_cast<std::uint32_t>(x);
   }
@@ -70,6 +82,7 @@ class Edges {
 
   const ImageF& wrapped_;
   const Mask& mask_;
+  const Image<std::uint8_t>* misfit_;
 };
 
 }  // namespace striae::reconstruct::detail

@@ -125,10 +125,11 @@ void JoinAll(const std::vector<std::uint32_t>& edges, const ImageF& wrapped, She
 
 }  // namespace
 
-Unwrapped UnwrapByKruskal(const ImageF& wrapped, const Mask& mask) {
-  const std::vector<std::uint32_t> edges = EdgeSorter(Unreliability(Edges(wrapped, mask)), mask).Sorted();
+Unwrapped UnwrapByKruskal(const Edges& edges) {
+  const ImageF& wrapped = edges.wrapped();
+  const Mask& mask = edges.mask();
   Sheets sheets(wrapped.size());
-  JoinAll(edges, wrapped, sheets);
+  JoinAll(EdgeSorter(Unreliability(edges), mask).Sorted(), wrapped, sheets);
   Unwrapped out{ImageF(wrapped.width(), wrapped.height(), std::numeric_limits<float>::quiet_NaN()),
                 Image<std::int32_t>(wrapped.width(), wrapped.height(), -1), 0};
   std::vector<RegionFound> found;
