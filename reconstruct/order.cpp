@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "reconstruct/detail/order_bridge.h"
@@ -74,13 +75,13 @@ class Resolver {
     }
   }
 
-  /// What has no anchor, always with a warning: the largest region from the distance when nothing is settled, the
-  /// others beside what is.
+  /// What has no anchor, always with a warning: beside what is settled, step by step; the largest region from the
+  /// distance when nothing is.
   void Continue() {
+    GoOnFromSettled();
     for (int r = 0; r < count_; ++r) {
       if (settled_[static_cast<std::size_t>(r)]) continue;
-      std::optional<RegionOrder> found = FromShadow(r);
-      if (!found) found = FromSheet(r);
+      std::optional<RegionOrder> found = FromSheet(r);
       const bool is_relative = found.has_value();
       if (r > 0 && !found) found = depth_.Continued(r);
       if (!found && r < asked_)
@@ -90,6 +91,7 @@ class Resolver {
         found->warning = "nothing fixes this region's whole stripe number; it is left out of the surface";
       }
       Settle(r, *std::move(found));
+      GoOnFromSettled();
     }
   }
 
@@ -108,20 +110,58 @@ class Resolver {
     return a < sheets_.size() && b < sheets_.size() && sheets_[a] == sheets_[b];
   }
 
-  /// The number of the largest settled region that it was one sheet with.
+  /// Across shadows first, then along most light, so that a face goes on from its chin and not from the chest that the
+  /// unwrapping joined it to.
+  void GoOnFromSettled() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (int r = 0; r < count_; ++r) {
+        if (settled_[static_cast<std::size_t>(r)]) continue;
+        if (auto found = FromShadow(r)) {
+          Settle(r, *std::move(found));
+          changed = true;
+        }
+      }
+      if (!changed) changed = GoOnAlongMostLight();
+    }
+  }
+
+  /// Settles the region into which most lines of light go on from a settled part of its sheet; false where there is
+  /// none.
+  bool GoOnAlongMostLight() {
+    constexpr std::size_t kFewestLines = 3;
+    std::size_t most = kFewestLines - 1;
+    int from = -1, to = -1;
+    for (const detail::Link& link : links_) {
+      const auto a = static_cast<std::size_t>(link.from), b = static_cast<std::size_t>(link.to);
+      if (settled_[a] == settled_[b] || !OneSheet(a, b) || link.lines.lit <= std::max(most, link.lines.unlit)) continue;
+      if (orders_[settled_[a] ? a : b].source == OrderSource::kNone) continue;
+      most = link.lines.lit;
+      std::tie(from, to) = settled_[a] ? std::pair(link.from, link.to) : std::pair(link.to, link.from);
+    }
+    if (from >= 0) Settle(to, GoneOn(from, to));
+    return from >= 0;
+  }
+
+  /// The number of a settled part of its sheet, within the bounds that the light sets.
+  [[nodiscard]] RegionOrder GoneOn(int from, int to) const {
+    const auto r = static_cast<std::size_t>(from), own = static_cast<std::size_t>(to);
+    RegionOrder found;
+    found.source = OrderSource::kBridge;
+    found.offset = std::clamp(orders_[r].offset, bounds_[own].least, std::max(bounds_[own].least, bounds_[own].most));
+    found.margin = std::min(kPartedMargin, orders_[r].margin);
+    found.warning =
+        "the stripes are dimmed or bent where it joins the rest, or it hangs on it by a narrow neck: its whole stripe "
+        "number goes on from there, and a step of whole stripes in depth would go unseen";
+    return found;
+  }
+
+  /// From the largest settled part of its sheet, when light goes on into none.
   [[nodiscard]] std::optional<RegionOrder> FromSheet(int region) const {
     const auto own = static_cast<std::size_t>(region);
     for (std::size_t r = 0; r < orders_.size(); ++r) {
       if (r == own || !settled_[r] || !OneSheet(r, own) || orders_[r].source == OrderSource::kNone) continue;
-      RegionOrder found;
-      found.source = OrderSource::kBridge;
-      found.offset = std::clamp(orders_[r].offset, bounds_[own].least, std::max(bounds_[own].least, bounds_[own].most));
-      found.margin = std::min(kPartedMargin, orders_[r].margin);
-      found.warning =
-          "the stripes are dimmed or bent where it joins the rest, or it hangs on it by a narrow neck: its whole "
-          "stripe "
-          "number goes on from there, and a step of whole stripes in depth would go unseen";
-      return found;
+      return GoneOn(static_cast<int>(r), region);
     }
     return std::nullopt;
   }
@@ -204,22 +244,6 @@ class Resolver {
 
 }  // namespace
 
-std::string_view ToString(OrderSource source) {
-  switch (source) {
-    case OrderSource::kGratingEdge:
-      return "grating-edge";
-    case OrderSource::kTarget:
-      return "target";
-    case OrderSource::kDistance:
-      return "distance";
-    case OrderSource::kBridge:
-      return "bridge";
-    case OrderSource::kNone:
-      break;
-  }
-  return "none";
-}
-
 std::vector<RegionOrder> ResolveOrder(const PhaseResult& phase, const Calibration& calibration, double distance_mm,
                                       const std::optional<TargetSighting>& target) {
   Resolver resolver(phase, calibration, distance_mm);
@@ -239,37 +263,6 @@ std::vector<RegionOrder> SettleOrder(PhaseResult& phase, const ImageRgb& picture
   auto orders = resolver.Take();
   parting.Join(phase, orders);
   return orders;
-}
-
-std::vector<RegionOrder> SummarisedRegions(const std::vector<RegionOrder>& regions) {
-  std::size_t all = 0;
-  for (const RegionOrder& region : regions) all += region.points;
-  std::vector<RegionOrder> listed;
-  std::optional<RegionOrder> placed, none;
-  for (const RegionOrder& region : regions) {
-    if (listed.empty() || region.points * 1000 >= all) {
-      listed.push_back(region);
-      continue;
-    }
-    auto& sum = region.source == OrderSource::kNone ? none : placed;
-    if (!sum) {
-      sum = region;
-      continue;
-    }
-    sum->points += region.points;
-    sum->regions += region.regions;
-    if (region.margin < sum->margin || sum->warning.empty()) {
-      const std::size_t points = sum->points;
-      const int count = sum->regions;
-      sum = region;
-      sum->points = points;
-      sum->regions = count;
-    }
-  }
-  for (auto& sum : {placed, none}) {
-    if (sum) listed.push_back(*sum);
-  }
-  return listed;
 }
 
 }  // namespace striae::reconstruct
