@@ -10,6 +10,7 @@
 
 #include "reconstruct/detail/carrier.h"
 #include "reconstruct/detail/fourier.h"
+#include "reconstruct/detail/lane_mask.h"
 #include "reconstruct/detail/mask.h"
 #include "reconstruct/detail/parallel.h"
 
@@ -126,8 +127,9 @@ std::vector<Lanes<float>> SampleBlocks(const LightReader& reader, const LineLayo
 
 /// Of the sampled pixels whose amplitude is above the noise.
 struct Typical {
-  float modulation = 0;     ///< upper quartile
-  std::uint8_t misfit = 0;  ///< median, as LaneMisfit keeps it
+  float modulation = 0;           ///< upper quartile
+  std::uint8_t least_misfit = 0;  ///< lower quartile, as LaneMisfit keeps it
+  std::uint8_t misfit = 0;        ///< median
 };
 
 Typical TypicalOf(const LineAnalysis& analysis, const std::vector<Lanes<float>>& blocks, float least_amplitude,
@@ -150,10 +152,12 @@ Typical TypicalOf(const LineAnalysis& analysis, const std::vector<Lanes<float>>&
   std::nth_element(modulations.begin(), quartile, modulations.end());
   const auto middle = misfits.begin() + static_cast<long>(misfits.size() / 2);
   std::nth_element(misfits.begin(), middle, misfits.end());
-  return {*quartile, *middle};
+  const auto least = misfits.begin() + static_cast<long>(misfits.size() / 4);
+  std::nth_element(misfits.begin(), least, middle);
+  return {*quartile, *least, *middle};
 }
 
-/// Fills the result's `noise` and `most_misfit` as well.
+/// Fills the result's `noise`, `most_misfit` and `usual_misfit` as well.
 detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const LightReader& reader, const LineLayout& layout,
                             const PhaseOptions& options, PhaseResult& result) {
   BlockMemory memory(analysis, layout.length());
@@ -171,6 +175,7 @@ detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const LightReader& rea
   limits.most_modulation = std::max(static_cast<float>(options.most_modulation),
                                     static_cast<float>(options.most_modulation_share) * typical.modulation);
   limits.least_share = static_cast<float>(options.least_plateau_share);
+  result.usual_misfit = PhaseResult::Misfit(typical.least_misfit);
   // A misfit is kept as its root: of `times` the typical one by sqrt(times) as much.
   result.most_misfit = static_cast<std::uint8_t>(std::min(
       255.0, std::max(255 * std::sqrt(options.most_misfit), std::sqrt(options.most_misfit_times) * typical.misfit)));
@@ -251,7 +256,7 @@ Result<PhaseResult> Measure(const Source& source, const PhaseOptions& options) {
   result.direction = chosen->direction;
   result.carrier_period_px = chosen->carrier.period_px;
   result.carrier_prominence = chosen->carrier.prominence;
-  const LineAnalysis analysis(chosen->layout.length(), result.carrier_period_px, options.window_half_width,
+  const LineAnalysis analysis(chosen->layout.length(), result.carrier_period_px, options.window,
                               options.remove_background);
   const LightReader reader(source, chosen->layout, options.smoothing_along * result.carrier_period_px);
   const auto limits = LimitsOf(analysis, reader, chosen->layout, options, result);
@@ -271,7 +276,7 @@ Result<PhaseResult> Measure(const Source& source, const PhaseOptions& options) {
     return Fail(ErrorCode::kNoCarrier,
                 "the stripes are too faint everywhere to carry phase; check flash, ISO and distance");
   }
-  result.unwrapped = Unwrap(std::move(wrapped), result.mask);
+  result.unwrapped = Unwrap(std::move(wrapped), result.mask, &result.misfit);
   return result;
 }
 
@@ -284,40 +289,6 @@ Result<PhaseResult> MeasurePhase(const Photograph& photograph, const PhaseOption
 Result<PhaseResult> MeasurePhase(Photograph&& photograph, const PhaseOptions& options) {
   ImageF luminance = std::move(photograph.luminance);
   return Measure({luminance, photograph.linear, photograph.saturation_level, &luminance}, options);
-}
-
-LocalPeriods FollowPeriod(const PhaseResult& phase) {
-  constexpr double kTurn = 2 * std::numbers::pi;
-  constexpr std::size_t kEvery = 499;  // pixels: a prime, no column or stripe is preferred
-  const Unwrapped& unwrapped = phase.unwrapped;
-  const auto width = static_cast<std::size_t>(unwrapped.phase.width());
-  const auto half = static_cast<std::size_t>(std::max(1L, std::lround(phase.carrier_period_px / 2)));
-  const bool horizontal = phase.direction == StripeDirection::kHorizontal;
-  const std::size_t step = horizontal ? half * width : half;
-  std::vector<double> periods;
-  for (std::size_t i = 0; i + step < unwrapped.phase.size(); i += kEvery) {
-    const std::size_t j = i + step;
-    const std::int32_t region = unwrapped.region.pixels()[i];
-    if (region < 0 || region != unwrapped.region.pixels()[j] || (!horizontal && i % width + half >= width)) continue;
-    if (!phase.FitsAt(i) || !phase.FitsAt(j)) continue;
-    const auto turns = static_cast<double>(unwrapped.phase.pixels()[j] - unwrapped.phase.pixels()[i]) / kTurn;
-    if (turns > 0) periods.push_back(static_cast<double>(half) / turns);
-  }
-  if (periods.empty()) return {};
-  const auto at = [&](double share) {
-    const auto place = periods.begin() + static_cast<long>(share * static_cast<double>(periods.size() - 1));
-    std::nth_element(periods.begin(), place, periods.end());
-    return *place;
-  };
-  return {at(0.05), at(0.95)};
-}
-
-Mask MeasuredMask(const PhaseResult& phase) {
-  Mask measured = Mask::Unset(phase.mask.width(), phase.mask.height());
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    measured.pixels()[i] = phase.mask.pixels()[i] != 0 && phase.FitsAt(i) ? 1 : 0;
-  }
-  return measured;
 }
 
 }  // namespace striae::reconstruct

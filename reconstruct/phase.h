@@ -14,10 +14,18 @@
 
 namespace striae::reconstruct {
 
+/// The window over the stripes' frequencies, from f0 (1 - half_width) to f0 (1 + half_width). Wider keeps edges,
+/// narrower removes noise. A window that is round at its top, as Hann's h (the paper's), rounds the phase wherever the
+/// period changes; 1 - (1 - h)^2 is flat there: what h takes off is looked for once more in what it left over (van
+/// Cittert's deconvolution, one step).
+struct BandWindow {
+  double half_width = 0.7;
+  bool flattened = true;
+};
+
 struct PhaseOptions {
   std::optional<StripeDirection> direction;  ///< found when not given
-  /// Half width of the Hann window over the carrier's frequency. Wider keeps edges, narrower removes noise.
-  double window_half_width = 0.9;
+  BandWindow window;
   /// The local mean is subtracted before the transform, so that its steps do not reach into the window.
   bool remove_background = true;
   /// Smoothing along the stripes (standard deviation of a Gaussian, in periods): with the Hann window it makes a window
@@ -56,6 +64,7 @@ struct PhaseResult {
   Mask mask;                       ///< where stripes are; what misfits among them still tells one surface from the next
   Image<std::uint8_t> misfit;      ///< 255 sqrt(MisfitAt), at most 255
   std::uint8_t most_misfit = 255;  ///< what is more is no measurement
+  float usual_misfit = 0;          ///< lower quartile where stripes are: noise, texture, harmonics
   double noise = 0;                ///< sd of the amplitude's components; phase noise (rad) = noise / amplitude
   double saturated_share = 0;      ///< of the pixels
 
@@ -64,11 +73,13 @@ struct PhaseResult {
     return Modulation(amplitude.pixels()[i], background.pixels()[i]);
   }
   /// sqrt(1 - r^2) around pixel `i`, r being the correlation of the light with the stripes found in it: 0 to 1.
-  [[nodiscard]] float MisfitAt(std::size_t i) const {
-    const float root = static_cast<float>(misfit.pixels()[i]) / 255;
+  [[nodiscard]] float MisfitAt(std::size_t i) const { return Misfit(misfit.pixels()[i]); }
+  [[nodiscard]] bool FitsAt(std::size_t i) const { return misfit.pixels()[i] <= most_misfit; }
+  [[nodiscard]] bool FitsAt(int col, int row) const { return misfit(col, row) <= most_misfit; }
+  static float Misfit(std::uint8_t kept) {
+    const float root = static_cast<float>(kept) / 255;
     return root * root;
   }
-  [[nodiscard]] bool FitsAt(std::size_t i) const { return misfit.pixels()[i] <= most_misfit; }
   static float Modulation(float amplitude, float background) {
     return std::clamp(amplitude / std::max(background, 1e-6F), 0.0F, 1.0F);
   }

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/optics.h"
 #include "core/vector.h"
 #include "reconstruct/colour.h"
 #include "reconstruct/detail/extent.h"
@@ -51,9 +52,25 @@ Status CheckFit(const Photograph& photograph, const Calibration& calibration) {
                                                    "; use the full-size original, and the calibration of this camera");
 }
 
+/// Stripes go on along the line on either side, if across a gap as between a wound's edge and its bed. Where they end
+/// for good, at a silhouette, the window sees more dark than stripes, and errors are three times what the misfit says.
+bool IsInside(const PhaseResult& phase, int col, int row) {
+  const bool horizontal = phase.direction == StripeDirection::kHorizontal;
+  const auto goes_on = [&](int side) {
+    for (const double periods : {1.0, 1.5, 2.0, 2.5}) {
+      const int away = static_cast<int>(std::lround(side * periods * phase.carrier_period_px));
+      const int x = horizontal ? col : col + away, y = horizontal ? row + away : row;
+      if (!phase.mask.Contains(x, y) || phase.mask(x, y) != 0) return true;
+    }
+    return false;
+  };
+  return goes_on(-1) && goes_on(1);
+}
+
 /// Absolute order of every pixel, in the place of the unwrapped phase; NaN outside the mask, where the light does not
 /// fit, in regions without an order, and beyond the grating's light.
-ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions, const Calibration& calibration) {
+ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions, const Calibration& calibration,
+                     double most_misfit_inside) {
   constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
   // The surface ends a quarter of a stripe inside the centres of the first and the last bright stripe: the light ends
   // half a stripe beyond them, and near its end the window mixes lit with unlit, which bends the phase by millimetres
@@ -69,6 +86,8 @@ ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions
   for (std::size_t r = 0; r < regions.size(); ++r) {
     if (regions[r].source != OrderSource::kNone) offsets[r + 1] = static_cast<float>(regions[r].offset);
   }
+  const auto most_inside = static_cast<std::uint8_t>(std::lround(255 * std::sqrt(most_misfit_inside)));
+  const auto inside = [&](int col, int row) { return IsInside(phase, col, row); };
   detail::ParallelLines(order.height(), [&](int row) {
     float* at = order.Row(row);
     const std::int32_t* region = phase.unwrapped.region.Row(row);
@@ -76,7 +95,8 @@ ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions
     const detail::Extent extent = detail::ExtentOf(at, order.width());
     for (int col = extent.first; col < extent.last; ++col) {
       const float n = at[col] / kTwoPi + offsets[static_cast<std::size_t>(region[col] + 1)];
-      at[col] = n >= lowest && n <= highest && misfit[col] <= phase.most_misfit ? n : kNone;
+      const bool fits = misfit[col] <= phase.most_misfit || (misfit[col] <= most_inside && inside(col, row));
+      at[col] = fits && n >= lowest && n <= highest ? n : kNone;
     }
   });
   return order;
@@ -162,11 +182,20 @@ ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibrati
   }
   const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
   out.regions = SettleOrder(phase, photograph.colour, calibration, options.distance_mm.value_or(middle_mm), out.target);
-  return detail::SmoothAlongStripes(AbsoluteOrder(phase, out.regions, calibration), phase.direction,
-                                    options.smoothing_along * phase.carrier_period_px);
+  return detail::SmoothAlongStripes(
+      AbsoluteOrder(phase, out.regions, calibration, MostMisfitInside(calibration, options)), phase.direction,
+      options.smoothing_along * phase.carrier_period_px);
 }
 
 }  // namespace
+
+double MostMisfitInside(const Calibration& calibration, const ReconstructOptions& options) {
+  constexpr double kLargest = 0.4;  // more is left where there are no stripes
+  const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
+  const double stripe_mm = std::abs(StripeOptics(calibration).DepthPerStripe(Eigen::Vector3d::UnitZ(), middle_mm));
+  const double misfit = options.most_misfit_mm / (detail::kStripesOfMisfit * stripe_mm);
+  return std::max(options.phase.most_misfit, std::min(kLargest, misfit));
+}
 
 Result<SensorReconstruction> ReconstructOnSensor(Photograph photograph, const Calibration& calibration,
                                                  const ReconstructOptions& options, Clock clock) {
@@ -189,7 +218,7 @@ Result<SensorReconstruction> ReconstructOnSensor(Photograph photograph, const Ca
   images.colour = ColourWithoutStripes(std::move(photograph.colour), order, phase->direction);
   stages.Done("colour");
 
-  detail::OrderUncertainty(phase->misfit, phase->noise, phase->amplitude, phase->background);
+  detail::OrderUncertainty(phase->misfit, phase->usual_misfit, phase->noise, phase->amplitude, phase->background);
   images.uncertainty = std::move(phase->amplitude);
   images.modulation = std::move(phase->background);
   const double slack_mm = options.outside_working_share * (calibration.near_mm + calibration.far_mm) / 2;

@@ -20,6 +20,10 @@ namespace striae::reconstruct {
 
 struct ReconstructOptions {
   PhaseOptions phase;
+  /// Where stripes go on along the line on either side, points are kept up to this standard uncertainty of their depth,
+  /// as their misfit gives it, where that allows more than the phase's own most_misfit: at 1 m a stripe is 17 mm of
+  /// depth and the walls of a wound are worth having; at 2 m it is 120 mm.
+  double most_misfit_mm = 2;
   std::optional<double> distance_mm;    ///< hint; the middle of the calibration's working distance when not given
   std::optional<double> label_side_mm;  ///< a label of this size is looked for; needs `find_target`
   /// FindTarget of reconstruct/target.h. A pointer, so that a program that looks for no label need not load what finds
@@ -55,6 +59,9 @@ struct Reconstruction : ReconstructionReport {
 struct SensorReconstruction : ReconstructionReport {
   SensorSurface surface;
 };
+
+/// The misfit that `most_misfit_mm` means in the middle of the rig's working distance, at least the phase's own.
+double MostMisfitInside(const Calibration& calibration, const ReconstructOptions& options);
 
 /// Reads a monotone clock in seconds; stages are timed with it when given (nothing here reads a clock itself).
 using Clock = double (*)();

@@ -17,7 +17,8 @@ namespace {
 
 struct Options {
   std::filesystem::path image, out, mask;
-  double window = reconstruct::PhaseOptions{}.window_half_width;
+  reconstruct::BandWindow window;
+  bool hann = false;
 };
 
 Status WriteImages(const Options& options, ImageF phase, const Mask& measured) {
@@ -40,7 +41,7 @@ Status MeasurePhase(Context& context, const Options& options) {
   const auto photograph = DecodePhotograph(*bytes);
   if (!photograph) return Fail(photograph.error(), options.image.string());
   reconstruct::PhaseOptions settings;
-  settings.window_half_width = options.window;
+  settings.window = {options.window.half_width, !options.hann};
   const auto phase = reconstruct::MeasurePhase(*photograph, settings);
   if (!phase) return Fail(phase.error(), options.image.string());
   const Mask measured = reconstruct::MeasuredMask(*phase);
@@ -75,9 +76,10 @@ void AddCommand_phase(CLI::App& root, Context& context) {
   command->add_option("image", options->image, "Photograph: JPEG, PNG, TIFF, BMP, NEF or DNG")->required();
   command->add_option("--out", options->out, "Phase to write (TIFF, float32, radians, NaN where invalid)")->required();
   command->add_option("--mask", options->mask, "Mask to write (PNG, 255 = valid)");
-  command->add_option("--window", options->window, "Half width of the Hann window over the carrier's frequency")
+  command->add_option("--window", options->window.half_width, "Half width of the window over the carrier's frequency")
       ->check(CLI::Range(0.05, 1.0))
       ->capture_default_str();
+  command->add_flag("--hann", options->hann, "Use a plain Hann window, rounder than the flattened one of the default");
   OnRun(command, context, [options](Context& run) { return MeasurePhase(run, *options); });
 }
 

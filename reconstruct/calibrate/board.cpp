@@ -123,7 +123,7 @@ Result<BoardView> ViewOfBoard(const PhaseResult& phase, const CharucoBoard& boar
   for (int row = step / 2; row < phase.mask.height(); row += step) {
     for (int col = step / 2; col < phase.mask.width(); col += step) {
       const int region = phase.unwrapped.region(col, row);
-      if (region < 0 || phase.misfit(col, row) > phase.most_misfit) continue;
+      if (region < 0 || !phase.FitsAt(col, row)) continue;
       const int dx = horizontal ? 0 : across, dy = horizontal ? across : 0;
       const auto inside = [&](int x, int y) {
         return phase.mask.Contains(x, y) && phase.unwrapped.region(x, y) == region;

@@ -51,7 +51,7 @@ CalibrationView ViewFromPhase(const PhaseResult& phase, double position_mm) {
   const int dx = horizontal ? kRim_px : across, dy = horizontal ? across : kRim_px;
   for (int row = step / 2; row < height; row += step) {
     for (int col = step / 2; col < width; col += step) {
-      if (phase.unwrapped.region(col, row) != 0 || phase.misfit(col, row) > phase.most_misfit) continue;
+      if (phase.unwrapped.region(col, row) != 0 || !phase.FitsAt(col, row)) continue;
       if (phase.noise > kLargestNoise_rad * static_cast<double>(phase.amplitude(col, row))) continue;
       if (!SmoothAlong(phase, col, row, dx, 0) || !SmoothAlong(phase, col, row, 0, dy)) continue;
       view.samples.push_back({{static_cast<double>(col), static_cast<double>(row)},

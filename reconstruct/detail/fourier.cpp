@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/vector.h"
+#include "reconstruct/detail/lane_mask.h"
 
 namespace striae::reconstruct::detail {
 namespace {
@@ -54,7 +55,7 @@ double LitShare(const float* lane, int length, float least) {
 
 }  // namespace
 
-LineAnalysis::LineAnalysis(int length, double period_px, double half_width, bool remove_background)
+LineAnalysis::LineAnalysis(int length, double period_px, const BandWindow& window, bool remove_background)
     : length_(length),
       // Two periods: as far as the window's kernel reaches, lest the line's end be mixed with its start.
       padded_(FastLength(length + static_cast<int>(std::ceil(2 * period_px)))),
@@ -62,11 +63,12 @@ LineAnalysis::LineAnalysis(int length, double period_px, double half_width, bool
       remove_background_(remove_background),
       plans_(padded_) {
   const double center = padded_ / period_px;
-  first_ = std::max(1, static_cast<int>(std::ceil(center * (1 - half_width))));
-  const int last = std::min(padded_ / 2 - 1, static_cast<int>(std::floor(center * (1 + half_width))));
+  first_ = std::max(1, static_cast<int>(std::ceil(center * (1 - window.half_width))));
+  const int last = std::min(padded_ / 2 - 1, static_cast<int>(std::floor(center * (1 + window.half_width))));
   for (int k = first_; k <= last; ++k) {
-    const double x = (k - center) / (center * half_width);
-    window_.push_back(static_cast<float>((1 + std::cos(std::numbers::pi * x)) / padded_));
+    const double x = (k - center) / (center * window.half_width);
+    const double hann = (1 + std::cos(std::numbers::pi * x)) / 2;
+    window_.push_back(static_cast<float>(2 * (window.flattened ? hann * (2 - hann) : hann) / padded_));
   }
 }
 
@@ -131,7 +133,7 @@ void LineAnalysis::Stripes(const float* light, const Signal& out, Scratch& scrat
 }
 
 void LineAnalysis::Misfit(const float* light, const Signal& signal, std::uint8_t* misfit, Scratch& scratch) const {
-  const int group = std::max(1, static_cast<int>(std::lround(period_px_ / 6)));
+  const int group = std::max(1, static_cast<int>(std::lround(period_px_ / 8)));
   LaneMisfit(light, signal.background, signal.stripes, length_, group, scratch.groups, misfit);
 }
 

@@ -5,14 +5,14 @@
 
 #include "reconstruct/detail/line_block.h"
 #include "reconstruct/detail/transform.h"
+#include "reconstruct/phase.h"
 
 namespace striae::reconstruct::detail {
 
-/// Takeda's Fourier transform profilometry, line by line, with a Hann window over
-/// f0 (1 - half_width) .. f0 (1 + half_width) (the paper's section 3). Lines are padded to a length that FFTW likes.
+/// Takeda's Fourier transform profilometry, line by line. Lines are padded to a length that FFTW likes.
 class LineAnalysis {
  public:
-  LineAnalysis(int length, double period_px, double half_width, bool remove_background = true);
+  LineAnalysis(int length, double period_px, const BandWindow& window, bool remove_background = true);
 
   /// One thread's memory.
   class Scratch {
@@ -39,10 +39,10 @@ class LineAnalysis {
   void Stripes(const float* light, const Signal& out, Scratch& scratch) const;
 
   /// How far the light is from following the stripes found in it, as LaneMisfit keeps it: over one and a
-  /// half periods, by means over a third of a period: the grating's third harmonic has none. Where the surface steps,
-  /// ends or folds within a period, or light saturates, no phase that is smooth enough for the window describes the
-  /// light, and what it leaves over is about as large as what it took up wrongly. A slope that the window only dims
-  /// does not count.
+  /// half periods, by means over a quarter of a period, which leave a third of the grating's third harmonic. Where the
+  /// surface steps, ends or folds within a period, or light saturates, no phase that is smooth enough for the window
+  /// describes the light, and what it leaves over is about as large as what it took up wrongly. A slope that the window
+  /// only dims does not count.
   void Misfit(const float* light, const Signal& signal, std::uint8_t* misfit, Scratch& scratch) const;
 
   /// No amplitude in the block reaches `least_amplitude`, or `least_modulation` of the darkest part of it; told from
@@ -60,7 +60,7 @@ class LineAnalysis {
   int length_, padded_, first_ = 0;
   double period_px_;
   bool remove_background_;
-  std::vector<float> window_;  ///< from bin first_ on: 2 * Hann / padded length
+  std::vector<float> window_;  ///< from bin first_ on: twice the window / padded length
   Plans plans_;
 };
 

@@ -33,9 +33,16 @@ struct Setting {
 std::vector<Setting> Settings() {
   const auto none = [](ReconstructOptions&) {};
   return {{"default", none},
-          {"window half width 0.5", [](ReconstructOptions& o) { o.phase.window_half_width = 0.5; }},
-          {"window half width 0.85", [](ReconstructOptions& o) { o.phase.window_half_width = 0.85; }},
-          {"window half width 1.0", [](ReconstructOptions& o) { o.phase.window_half_width = 1.0; }},
+          {"plain Hann window, 0.5",
+           [](ReconstructOptions& o) {
+             o.phase.window = {0.5, false};
+           }},
+          {"plain Hann window, 0.9",
+           [](ReconstructOptions& o) {
+             o.phase.window = {0.9, false};
+           }},
+          {"window half width 0.7", [](ReconstructOptions& o) { o.phase.window.half_width = 0.7; }},
+          {"window half width 1.0", [](ReconstructOptions& o) { o.phase.window.half_width = 1.0; }},
           {"no smoothing along the stripes", [](ReconstructOptions& o) { o.smoothing_along = 0; }},
           {"order smoothed, 1/8 period", [](ReconstructOptions& o) { o.smoothing_along = 0.125; }},
           {"light smoothed, 1/8 (2-D window)",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -61,6 +62,23 @@ TEST(Reconstruct, ATiltedWallAtTwoMetresFromTheExpectedDistance) {
   // A stripe is about 270 mm of depth for this rig: 0.01 stripe.
   EXPECT_LT(error.sd, 2.7);
   EXPECT_LT(std::abs(error.mean), 2.7);
+}
+
+TEST(Reconstruct, KeepsMoreOfWhatMisfitsWhereAStripeIsLittleDepth) {
+  // Two millimetres: where a stripe is 130 mm deep, that is no more than any phase's own limit.
+  const ReconstructOptions options;
+  EXPECT_EQ(MostMisfitInside(LargeQuarterRig(), options), PhaseOptions{}.most_misfit);
+  const Calibration rig = SmallQuarterRig();
+  const double middle_mm = (rig.near_mm + rig.far_mm) / 2;
+  const StripeOptics optics(rig);
+  const auto order = [&](double depth_mm) { return *optics.OrderAt({0, 0, depth_mm}); };
+  const double stripe_mm = 1 / std::abs(order(middle_mm + 0.5) - order(middle_mm - 0.5));
+  const double misfit = 2 * std::numbers::pi * std::numbers::sqrt2 * 2 / stripe_mm;
+  EXPECT_GT(misfit, 1.5 * PhaseOptions{}.most_misfit);
+  EXPECT_NEAR(MostMisfitInside(rig, options), misfit, 1e-3 * misfit);
+  ReconstructOptions strict;
+  strict.most_misfit_mm = 0;
+  EXPECT_EQ(MostMisfitInside(SmallQuarterRig(), strict), PhaseOptions{}.most_misfit);
 }
 
 TEST(Reconstruct, PointsLieOnTheirPixelsRays) {
