@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/wound/detail/budget.h"
 #include "analysis/wound/detail/choice.h"
@@ -37,11 +38,12 @@ double WideReach(const Scene& scene, const Options& options) {
   return std::max(45.0, across_mm + 2 * options.gaps_mm.front() + options.ring_width_mm + 6);
 }
 
-// The Fourier stage's kernel on the skin: stripes of so many pixels, which are so far apart there.
+// The Fourier stage's kernel on the skin: stripes of so many pixels, which are so far apart there. Its window is flat
+// at its top; what rounds is the background's removal, a mean over T twice: 1 - sinc^2 falls by (f T - 1)^2 beside f =
+// 1/T.
 double ResolutionOf(const Surface& surface, double pixel_mm, const Options& options) {
-  constexpr double kWindow = 0.9;  // relative width of the Hann window
   const auto period_px = CarrierPeriodOf(surface);
-  return period_px ? *period_px * pixel_mm / (std::sqrt(8.0) * kWindow) : options.resolution_mm;
+  return period_px ? *period_px * pixel_mm / (std::numbers::sqrt2 * std::numbers::pi) : options.resolution_mm;
 }
 
 // Sd of the smoothing that frees a line of its shakes: four times its roughness, and not less than its points' spacing,

@@ -25,8 +25,8 @@ struct Options {
   double smoothing_mm = 0.5;      ///< sd of the Gaussian before depth and bed area; volume stays unsmoothed
   double deepest_mm = 1.25;       ///< radius of the surface fitted around the deepest point
   /// Sd of the reconstruction's kernel where the surface does not say its carrier period: stripes 1.9 mm apart. Else
-  /// T / (sqrt(8) w) for a Hann window of relative width w = 0.9 and stripes T apart on the skin.
-  double resolution_mm = 0.75;
+  /// T / (sqrt(2) pi) for stripes T apart on the skin.
+  double resolution_mm = 0.43;
   double perimeter_step_mm = 1.0;  ///< the outline is resampled at this step and draped on the virtual skin
   double max_ring_slope_deg = 60;  ///< steeper skin (against the ring's mean plane) cannot be continued by polynomials
   double outline_sd_mm = 0.05;     /**< standard uncertainty of the drawn line's place, as a common offset: half a

@@ -1,6 +1,7 @@
 // Craters carved into known bodies: what a wound measurement must say, within what it claims to know.
 #include <cmath>
 #include <iostream>
+#include <numbers>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -136,8 +137,9 @@ TEST(WoundResolution, IsThatOfTheSurfacesOwnStripes) {
   const Outline circle = CircleOn(body, kCamera, 10);
   EXPECT_EQ(MeasureOrFail(surface, circle).details["resolution_mm"], Options{}.resolution_mm);
   surface.comments = {"carrier period px 6.0"};
-  // Stripes 6 px of 1/3 mm apart, Hann window of relative width 0.9; pixels on the slopes are a few per cent longer.
-  const double expected = 6 / 3.0 / (std::sqrt(8.0) * 0.9);
+  // Stripes 6 px of 1/3 mm apart, the mean over a stripe taken off twice; pixels on the slopes are a few per cent
+  // longer.
+  const double expected = 6 / 3.0 / (std::numbers::sqrt2 * std::numbers::pi);
   EXPECT_NEAR(MeasureOrFail(surface, circle).details["resolution_mm"].get<double>(), expected, 0.07 * expected);
   surface.comments = {"carrier period px none"};
   EXPECT_EQ(MeasureOrFail(surface, circle).details["resolution_mm"], Options{}.resolution_mm);

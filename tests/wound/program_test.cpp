@@ -89,8 +89,8 @@ TEST(MeasureWound, ThroughTheProgramIsTheWoundThatWasPhotographed) {
   // The bar through whole chains is 4 % (worst) and 3 %; this one has the true rig, at half size.
   EXPECT_NEAR(values.at("volume").at("value").get<double>(), volume, 0.02 * volume);
   EXPECT_NEAR(values.at("depth_max").at("value").get<double>(), depth, 0.03 * depth);
-  // The kernel is told from the surface's own carrier: 8.9 px of 0.2 mm at half size.
-  EXPECT_NEAR(ran.Json().at("resolution_mm").get<double>(), 0.75, 0.1);
+  // The kernel is told from the surface's own carrier: 1.9 mm / (sqrt(2) pi).
+  EXPECT_NEAR(ran.Json().at("resolution_mm").get<double>(), 0.43, 0.06);
 }
 
 TEST(MeasureWound, DrawsTheSamePicturesTwice) {

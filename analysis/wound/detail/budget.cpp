@@ -13,8 +13,8 @@ constexpr double kComparableScore = 1.5;     // nor one that continues intact sk
 constexpr double kBridgeRelativeSd = 0.1;    // of the volume over bridged holes
 constexpr double kBedAreaRelativeSd = 0.02;  // smoothing rounds the rim
 constexpr double kDepthRelativeSd = 0.005;   // the Fourier window rings at steep walls
-constexpr double kDepthShare = 0.01;         // of the kernel's sd: what it leaves of an uneven bed's deepest place
-constexpr double kBowlShare = 0.5;           // of what the kernel takes from a bowl of the wound's size
+constexpr double kDepthShare = 0.0175;       // of the kernel's sd: what it leaves of an uneven bed's deepest place
+constexpr double kBowlShare = 1.5;  // of what the kernel takes from a bowl of the wound's size: its walls are steeper
 
 double RootOfSquares(std::initializer_list<double> parts) {
   double sum = 0;
@@ -153,9 +153,9 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
   // d (1 - r^2 / R^2) loses half its second derivative times s^2; the fitted quadric gives back what it sees of it.
   const double bowl_mm =
       f.deepest.depth_mm * f.resolution_mm * f.resolution_mm * M_PI / std::max(f.boundary.plane_area_mm2, 1e-9);
-  figures.depth_max = {f.deepest.depth_mm, RootOfSquares({u_skin, f.deepest.noise_mm, f.deepest.correction_mm / 2,
-                                                          kDepthShare * f.resolution_mm, kBowlShare * bowl_mm,
-                                                          kDepthRelativeSd * f.deepest.depth_mm})};
+  figures.depth_max = {f.deepest.depth_mm,
+                       RootOfSquares({u_skin, f.deepest.noise_mm, f.deepest.gain_mm / 2, kDepthShare * f.resolution_mm,
+                                      kBowlShare * bowl_mm, kDepthRelativeSd * f.deepest.depth_mm})};
   figures.depth_p95 = with_sd(f.depths.p95_mm);
   figures.depth_mean = {volume / area,
                         RootOfSquares({u.Sum() / area, volume / area * figures.area.uncertainty / area})};

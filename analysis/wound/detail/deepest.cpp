@@ -14,6 +14,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 constexpr double kHuber = 1.345, kMadToSd = 1.4826;
 constexpr std::size_t kLeastPoints = 20;
 constexpr double kMostGain = 0.15;  // of the smoothed depth
+constexpr double kTogether = 4;     // root of the cells that a stripe's error is common to
 
 struct Sample {
   double x, y, height;  // columns and rows of cells from the deepest one, mm; skin above the bed
@@ -98,7 +99,7 @@ Deepest FindDeepest(const Scene& scene, const Bed& bed, const Skin& skin, const 
     const auto& p = bed.point[k];
     samples.push_back({x, y, skin.Height(p.x(), p.y()) - p.z()});
   }
-  Deepest deepest{smoothed.max_mm, 0, 0};
+  Deepest deepest{smoothed.max_mm, 0, 0, 0};
   if (samples.size() < kLeastPoints) return deepest;
   const Fit fit = FitQuadratic(samples);
   const Eigen::Vector2d top = TopOf(fit, 0.6 * radius_mm);
@@ -109,11 +110,12 @@ Deepest FindDeepest(const Scene& scene, const Bed& bed, const Skin& skin, const 
   const Eigen::Vector2d g = skin.Gradient(smoothed.deepest.x(), smoothed.deepest.y());
   const double to_normal = 1 / std::sqrt(1 + g.squaredNorm());
   deepest.correction_mm *= to_normal;
-  deepest.noise_mm = fit.sd * std::sqrt(std::max(0.0, terms.dot(fit.inverse * terms)));
+  deepest.noise_mm = kTogether * fit.sd * std::sqrt(std::max(0.0, terms.dot(fit.inverse * terms)));
   const double most = kMostGain * smoothed.max_mm;
   deepest.correction_mm = std::min(deepest.correction_mm, most);
   deepest.depth_mm =
       std::clamp(along_axis * to_normal + deepest.correction_mm, smoothed.max_mm, smoothed.max_mm + 2 * most);
+  deepest.gain_mm = deepest.depth_mm - smoothed.max_mm;
   return deepest;
 }
 
