@@ -182,8 +182,7 @@ class Resolver {
       found->margin = std::min(orders_[other].margin, 2 * link.alike - 1);
       found->warning =
           "its whole stripe number rests on the shadow between it and the surface beside it; where that is no shadow "
-          "but "
-          "dark cloth or empty space, the number is wrong";
+          "but dark cloth or empty space, the number is wrong";
     }
     return found;
   }

@@ -175,10 +175,9 @@ detail::MaskLimits LimitsOf(const LineAnalysis& analysis, const LightReader& rea
   limits.most_modulation = std::max(static_cast<float>(options.most_modulation),
                                     static_cast<float>(options.most_modulation_share) * typical.modulation);
   limits.least_share = static_cast<float>(options.least_plateau_share);
-  result.usual_misfit = PhaseResult::Misfit(typical.least_misfit);
-  // A misfit is kept as its root: of `times` the typical one by sqrt(times) as much.
-  result.most_misfit = static_cast<std::uint8_t>(std::min(
-      255.0, std::max(255 * std::sqrt(options.most_misfit), std::sqrt(options.most_misfit_times) * typical.misfit)));
+  result.usual_misfit = MisfitOf(typical.least_misfit);
+  const double usual = static_cast<double>(MisfitOf(typical.misfit));
+  result.most_misfit = KeptMisfit(std::max(options.most_misfit, options.most_misfit_times * usual));
   limits.rim_px = static_cast<int>(std::lround(options.rim_periods * result.carrier_period_px));
   limits.least_run_px = static_cast<int>(std::lround(options.least_run_periods * result.carrier_period_px));
   return limits;

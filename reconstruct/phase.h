@@ -10,6 +10,7 @@
 #include "core/calibration.h"
 #include "core/image.h"
 #include "core/result.h"
+#include "reconstruct/misfit.h"
 #include "reconstruct/unwrap.h"
 
 namespace striae::reconstruct {
@@ -28,7 +29,7 @@ struct PhaseOptions {
   BandWindow window;
   /// The local mean is subtracted before the transform, so that its steps do not reach into the window.
   bool remove_background = true;
-  /// Smoothing along the stripes (standard deviation of a Gaussian, in periods): with the Hann window it makes a window
+  /// Smoothing along the stripes (standard deviation of a Gaussian, in periods): with `window` it makes a window
   /// in two dimensions. Across the stripes the window reaches much farther, so that no detail is lost.
   double smoothing_along = 0;
   /// Most of the light that the stripes may leave unexplained (PhaseResult::MisfitAt): more is left at a silhouette, a
@@ -62,7 +63,7 @@ struct PhaseResult {
   ImageF amplitude;                ///< of the fundamental, linear light, full scale 1
   ImageF background;               ///< local mean, linear light
   Mask mask;                       ///< where stripes are; what misfits among them still tells one surface from the next
-  Image<std::uint8_t> misfit;      ///< 255 sqrt(MisfitAt), at most 255
+  Image<std::uint8_t> misfit;      ///< as KeptMisfit keeps it
   std::uint8_t most_misfit = 255;  ///< what is more is no measurement
   float usual_misfit = 0;          ///< lower quartile where stripes are: noise, texture, harmonics
   double noise = 0;                ///< sd of the amplitude's components; phase noise (rad) = noise / amplitude
@@ -73,13 +74,9 @@ struct PhaseResult {
     return Modulation(amplitude.pixels()[i], background.pixels()[i]);
   }
   /// sqrt(1 - r^2) around pixel `i`, r being the correlation of the light with the stripes found in it: 0 to 1.
-  [[nodiscard]] float MisfitAt(std::size_t i) const { return Misfit(misfit.pixels()[i]); }
+  [[nodiscard]] float MisfitAt(std::size_t i) const { return MisfitOf(misfit.pixels()[i]); }
   [[nodiscard]] bool FitsAt(std::size_t i) const { return misfit.pixels()[i] <= most_misfit; }
   [[nodiscard]] bool FitsAt(int col, int row) const { return misfit(col, row) <= most_misfit; }
-  static float Misfit(std::uint8_t kept) {
-    const float root = static_cast<float>(kept) / 255;
-    return root * root;
-  }
   static float Modulation(float amplitude, float background) {
     return std::clamp(amplitude / std::max(background, 1e-6F), 0.0F, 1.0F);
   }

@@ -19,6 +19,7 @@
 #include "reconstruct/detail/sensor_grid.h"
 #include "reconstruct/detail/triangulate.h"
 #include "reconstruct/detail/uncertainty.h"
+#include "reconstruct/misfit.h"
 #include "reconstruct/quality.h"
 
 namespace striae::reconstruct {
@@ -51,6 +52,9 @@ Status CheckFit(const Photograph& photograph, const Calibration& calibration) {
                                                    std::to_string(calibration.image_height_px) +
                                                    "; use the full-size original, and the calibration of this camera");
 }
+
+/// Of the working distance.
+double Middle_mm(const Calibration& calibration) { return (calibration.near_mm + calibration.far_mm) / 2; }
 
 /// Stripes go on along the line on either side, if across a gap as between a wound's edge and its bed. Where they end
 /// for good, at a silhouette, the window sees more dark than stripes, and errors are three times what the misfit says.
@@ -86,8 +90,7 @@ ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions
   for (std::size_t r = 0; r < regions.size(); ++r) {
     if (regions[r].source != OrderSource::kNone) offsets[r + 1] = static_cast<float>(regions[r].offset);
   }
-  const auto most_inside = static_cast<std::uint8_t>(std::lround(255 * std::sqrt(most_misfit_inside)));
-  const auto inside = [&](int col, int row) { return IsInside(phase, col, row); };
+  const std::uint8_t most_inside = KeptMisfit(most_misfit_inside);
   detail::ParallelLines(order.height(), [&](int row) {
     float* at = order.Row(row);
     const std::int32_t* region = phase.unwrapped.region.Row(row);
@@ -95,7 +98,7 @@ ImageF AbsoluteOrder(PhaseResult& phase, const std::vector<RegionOrder>& regions
     const detail::Extent extent = detail::ExtentOf(at, order.width());
     for (int col = extent.first; col < extent.last; ++col) {
       const float n = at[col] / kTwoPi + offsets[static_cast<std::size_t>(region[col] + 1)];
-      const bool fits = misfit[col] <= phase.most_misfit || (misfit[col] <= most_inside && inside(col, row));
+      const bool fits = misfit[col] <= phase.most_misfit || (misfit[col] <= most_inside && IsInside(phase, col, row));
       at[col] = fits && n >= lowest && n <= highest ? n : kNone;
     }
   });
@@ -180,8 +183,8 @@ ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibrati
     out.target = options.find_target(phase, calibration.camera, *options.label_side_mm);
     if (!out.target) out.warnings.emplace_back("the label is not found in the photograph");
   }
-  const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
-  out.regions = SettleOrder(phase, photograph.colour, calibration, options.distance_mm.value_or(middle_mm), out.target);
+  out.regions = SettleOrder(phase, photograph.colour, calibration, options.distance_mm.value_or(Middle_mm(calibration)),
+                            out.target);
   return detail::SmoothAlongStripes(
       AbsoluteOrder(phase, out.regions, calibration, MostMisfitInside(calibration, options)), phase.direction,
       options.smoothing_along * phase.carrier_period_px);
@@ -191,8 +194,8 @@ ImageF OrderOf(const Photograph& photograph, PhaseResult& phase, const Calibrati
 
 double MostMisfitInside(const Calibration& calibration, const ReconstructOptions& options) {
   constexpr double kLargest = 0.4;  // more is left where there are no stripes
-  const double middle_mm = (calibration.near_mm + calibration.far_mm) / 2;
-  const double stripe_mm = std::abs(StripeOptics(calibration).DepthPerStripe(Eigen::Vector3d::UnitZ(), middle_mm));
+  const double stripe_mm =
+      std::abs(StripeOptics(calibration).DepthPerStripe(Eigen::Vector3d::UnitZ(), Middle_mm(calibration)));
   const double misfit = options.most_misfit_mm / (detail::kStripesOfMisfit * stripe_mm);
   return std::max(options.phase.most_misfit, std::min(kLargest, misfit));
 }
@@ -221,7 +224,7 @@ Result<SensorReconstruction> ReconstructOnSensor(Photograph photograph, const Ca
   detail::OrderUncertainty(phase->misfit, phase->usual_misfit, phase->noise, phase->amplitude, phase->background);
   images.uncertainty = std::move(phase->amplitude);
   images.modulation = std::move(phase->background);
-  const double slack_mm = options.outside_working_share * (calibration.near_mm + calibration.far_mm) / 2;
+  const double slack_mm = options.outside_working_share * Middle_mm(calibration);
   detail::RayTable rays(calibration.camera, order.width(), order.height());
   images.depth = detail::Triangulate(std::move(order), calibration, rays, calibration.near_mm - slack_mm,
                                      calibration.far_mm + slack_mm, images.uncertainty);

@@ -18,7 +18,6 @@ namespace {
 struct Options {
   std::filesystem::path image, out, mask;
   reconstruct::BandWindow window;
-  bool hann = false;
 };
 
 Status WriteImages(const Options& options, ImageF phase, const Mask& measured) {
@@ -41,7 +40,7 @@ Status MeasurePhase(Context& context, const Options& options) {
   const auto photograph = DecodePhotograph(*bytes);
   if (!photograph) return Fail(photograph.error(), options.image.string());
   reconstruct::PhaseOptions settings;
-  settings.window = {options.window.half_width, !options.hann};
+  settings.window = options.window;
   const auto phase = reconstruct::MeasurePhase(*photograph, settings);
   if (!phase) return Fail(phase.error(), options.image.string());
   const Mask measured = reconstruct::MeasuredMask(*phase);
@@ -79,7 +78,8 @@ void AddCommand_phase(CLI::App& root, Context& context) {
   command->add_option("--window", options->window.half_width, "Half width of the window over the carrier's frequency")
       ->check(CLI::Range(0.05, 1.0))
       ->capture_default_str();
-  command->add_flag("--hann", options->hann, "Use a plain Hann window, rounder than the flattened one of the default");
+  command->add_flag("!--hann", options->window.flattened,
+                    "Use a plain Hann window, rounder than the flattened one of the default");
   OnRun(command, context, [options](Context& run) { return MeasurePhase(run, *options); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/vector.h"
 #include "reconstruct/detail/parallel.h"
+#include "reconstruct/misfit.h"
 
 namespace striae::reconstruct::detail {
 namespace {
@@ -22,9 +23,9 @@ STRIAE_VECTORISED void Combine(const std::uint8_t* misfit, float usual, int widt
     const float modulation = amplitude[x] / std::max(background[x], 1e-6F);
     background[x] = modulation < 1 ? modulation : 1.0F;
     const float of_noise = noise / std::max(amplitude[x], 1e-9F);
-    const float root = static_cast<float>(misfit[x]) * (1 / 255.0F);
+    const float own = MisfitOf(misfit[x]);
     constexpr auto kPower = static_cast<float>(kStripesOfMisfit * kStripesOfMisfit);
-    const float above = root * root * root * root - usual;
+    const float above = own * own - usual;
     const float of_misfit = kPower * (above > 0 ? above : 0.0F);
     amplitude[x] = std::sqrt(of_noise * of_noise + of_misfit + kFloor * kFloor);
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/image.h"
+#include "reconstruct/misfit.h"
 
 namespace striae::reconstruct::detail {
 
@@ -70,8 +71,8 @@ class Edges {
   [[nodiscard]] float OfMisfit(int x, int row) const {
     constexpr float kAtMisfitOne = 20;  // rad^2
     if (misfit_ == nullptr) return 0;
-    const float root = static_cast<float>((*misfit_)(x, row)) / 255;
-    return kAtMisfitOne * root * root * root * root;
+    const float misfit = MisfitOf((*misfit_)(x, row));
+    return kAtMisfitOne * misfit * misfit;
   }
   [[nodiscard]] std::uint32_t Pixel(int x, int row) const {
     return static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(mask_.width()) + static_cast<std::uint32_t>(x);
