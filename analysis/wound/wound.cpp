@@ -39,8 +39,8 @@ double WideReach(const Scene& scene, const Options& options) {
 }
 
 // The Fourier stage's kernel on the skin: stripes of so many pixels, which are so far apart there. Its window is flat
-// at its top; what rounds is the background's removal, a mean over T twice: 1 - sinc^2 falls by (f T - 1)^2 beside f =
-// 1/T.
+// at its top; what rounds is the background's removal, a mean over T twice: beside f T = 1, 1 - sinc^2 falls by
+// (f T - 1)^2.
 double ResolutionOf(const Surface& surface, double pixel_mm, const Options& options) {
   const auto period_px = CarrierPeriodOf(surface);
   return period_px ? *period_px * pixel_mm / (std::numbers::sqrt2 * std::numbers::pi) : options.resolution_mm;

@@ -153,8 +153,9 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
   // d (1 - r^2 / R^2) loses half its second derivative times s^2; the fitted quadric gives back what it sees of it.
   const double bowl_mm =
       f.deepest.depth_mm * f.resolution_mm * f.resolution_mm * M_PI / std::max(f.boundary.plane_area_mm2, 1e-9);
+  const double gain_mm = f.deepest.depth_mm - f.depths.max_mm;  // of the fit and the correction on the smoothed depth
   figures.depth_max = {f.deepest.depth_mm,
-                       RootOfSquares({u_skin, f.deepest.noise_mm, f.deepest.gain_mm / 2, kDepthShare * f.resolution_mm,
+                       RootOfSquares({u_skin, f.deepest.noise_mm, gain_mm / 2, kDepthShare * f.resolution_mm,
                                       kBowlShare * bowl_mm, kDepthRelativeSd * f.deepest.depth_mm})};
   figures.depth_p95 = with_sd(f.depths.p95_mm);
   figures.depth_mean = {volume / area,

@@ -99,7 +99,7 @@ Deepest FindDeepest(const Scene& scene, const Bed& bed, const Skin& skin, const 
     const auto& p = bed.point[k];
     samples.push_back({x, y, skin.Height(p.x(), p.y()) - p.z()});
   }
-  Deepest deepest{smoothed.max_mm, 0, 0, 0};
+  Deepest deepest{smoothed.max_mm, 0, 0};
   if (samples.size() < kLeastPoints) return deepest;
   const Fit fit = FitQuadratic(samples);
   const Eigen::Vector2d top = TopOf(fit, 0.6 * radius_mm);
@@ -115,7 +115,6 @@ Deepest FindDeepest(const Scene& scene, const Bed& bed, const Skin& skin, const 
   deepest.correction_mm = std::min(deepest.correction_mm, most);
   deepest.depth_mm =
       std::clamp(along_axis * to_normal + deepest.correction_mm, smoothed.max_mm, smoothed.max_mm + 2 * most);
-  deepest.gain_mm = deepest.depth_mm - smoothed.max_mm;
   return deepest;
 }
 

@@ -8,7 +8,6 @@ namespace striae::wound {
 struct Deepest {
   double depth_mm = 0;       ///< along the skin's normal
   double noise_mm = 0;       ///< standard uncertainty from the fit's residuals, which hang together over a stripe
-  double gain_mm = 0;        ///< what the fit and the correction add to the smoothed depth
   double correction_mm = 0;  ///< what of it undoes the window
 };
 

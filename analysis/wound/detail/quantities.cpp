@@ -257,9 +257,10 @@ Boundary MeasureBoundary(const Polygon& outline, const Skin& skin, double step_m
   std::vector<Eigen::Vector3d> draped;
   // A shaky line is longer than what it goes around: the smoothing is meant along the latter.
   const Polygon even = Resample(outline, step_mm);
+  const double drawn_mm = PolygonField(even).perimeter();
   Polygon line = even;
   for (int round = 0; round < 4; ++round) {
-    line = Smoothed(even, smoothing_mm * PolygonField(even).perimeter() / PolygonField(line).perimeter());
+    line = Smoothed(even, smoothing_mm * drawn_mm / PolygonField(line).perimeter());
   }
   for (const auto& p : line) draped.emplace_back(p.x(), p.y(), skin.Height(p.x(), p.y()));
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
