@@ -142,8 +142,8 @@ ImageRgb Angles(const Surface& neutral, const Surface& pose, const head::HeadFit
 
 ImageRgb WithBar(const ImageRgb& picture) {
   ImageRgb wide(picture.width() + static_cast<int>(kBarWidth), picture.height(), Rgb8{255, 255, 255});
-  Paste(picture, 0, wide);
-  Paste(ColourBar({0, kWorst_mm, "mm", false}, picture.height(), 1), picture.width(), wide);
+  Paste(picture, 0, 0, wide);
+  Paste(ColourBar({0, kWorst_mm, "mm", false}, picture.height(), 1), picture.width(), 0, wide);
   return wide;
 }
 

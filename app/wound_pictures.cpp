@@ -39,14 +39,9 @@ ImageRgb WithFooter(const ImageRgb& picture, double px_per_mm, const std::string
   footer.height = kHigh_px;
   if (px_per_mm > 0) footer.Line({{10, 14}, {10 + 10 * px_per_mm, 14}}, 2, kInk);
   footer.Text({16 + 10 * px_per_mm, 18}, 12, (px_per_mm > 0 ? "10 mm   " : "") + text, kInk);
-  const ImageRgb strip = Rasterise(footer, 1);
   ImageRgb whole(picture.width(), picture.height() + kHigh_px, Rgb8{255, 255, 255});
-  Paste(picture, 0, whole);
-  for (int row = 0; row < strip.height(); ++row) {
-    for (int col = 0; col < strip.width(); ++col) {
-      if (whole.Contains(col, picture.height() + row)) whole(col, picture.height() + row) = strip(col, row);
-    }
-  }
+  Paste(picture, 0, 0, whole);
+  Paste(Rasterise(footer, 1), 0, picture.height(), whole);
   return whole;
 }
 
@@ -95,8 +90,8 @@ ImageRgb Depths(const wound::WoundMaps& maps) {
 
 ImageRgb WithDepthBar(const ImageRgb& picture) {
   ImageRgb whole(picture.width() + static_cast<int>(kBarWidth) + 1, picture.height(), Rgb8{255, 255, 255});
-  Paste(picture, 0, whole);
-  Paste(ColourBar({0, kDeepest_mm, "mm", false}, picture.height(), 1), picture.width(), whole);
+  Paste(picture, 0, 0, whole);
+  Paste(ColourBar({0, kDeepest_mm, "mm", false}, picture.height(), 1), picture.width(), 0, whole);
   return whole;
 }
 
@@ -178,9 +173,7 @@ Result<std::vector<std::string>> WriteWoundPictures(const fs::path& folder, cons
     written.push_back((folder / name).string());
   }
   const fs::path sections = folder / "sections.svg";
-  std::string svg = ToSvg(Sections(maps));
-  svg.insert(svg.find("<svg") + 4, " xmlns=\"http://www.w3.org/2000/svg\"");  // as a file of its own
-  if (Status done = WriteText(sections, svg); !done) return Fail(done.error());
+  if (Status done = WriteText(sections, SvgFile(Sections(maps))); !done) return Fail(done.error());
   written.push_back(sections.string());
   return written;
 }

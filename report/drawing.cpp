@@ -110,12 +110,20 @@ void Drawing::Text(Point baseline, double size, std::string text, Rgb8 colour, A
   shapes.push_back(std::move(shape));
 }
 
-std::string ToSvg(const Drawing& drawing) {
-  std::string svg = "<svg viewBox=\"0 0 " + Number(drawing.width) + " " + Number(drawing.height) +
+namespace {
+
+std::string Svg(const Drawing& drawing, const std::string& name_space) {
+  std::string svg = "<svg" + name_space + " viewBox=\"0 0 " + Number(drawing.width) + " " + Number(drawing.height) +
                     "\" role=\"img\" aria-label=\"" + detail::Escape(drawing.description) + "\">\n<title>" +
                     detail::Escape(drawing.description) + "</title>\n";
   for (const Shape& shape : drawing.shapes) svg += Element(shape) + "\n";
   return svg + "</svg>\n";
 }
+
+}  // namespace
+
+std::string ToSvg(const Drawing& drawing) { return Svg(drawing, ""); }
+
+std::string SvgFile(const Drawing& drawing) { return Svg(drawing, " xmlns=\"http://www.w3.org/2000/svg\""); }
 
 }  // namespace striae::report

@@ -44,6 +44,8 @@ struct Drawing {
 
 /// As an <svg> element with viewBox (no fixed size), role="img" and a <title>.
 std::string ToSvg(const Drawing& drawing);
+/// The same as a file of its own, with the namespace that viewers ask for; a page must not name any address.
+std::string SvgFile(const Drawing& drawing);
 
 /// As pixels on white, `scale` pixels a point.
 ImageRgb Rasterise(const Drawing& drawing, double scale);

@@ -48,7 +48,7 @@ Status WritePlot(const std::filesystem::path& file, const Device& device, const 
       "Checks of device " + device.serial + " (" + std::string(ToString(device.range)) + " range)";
   const report::Drawing drawing = report::DrawDrift(title, Panels(checks), kWidthPt);
   const std::string kind = file.extension().string();
-  if (kind == ".svg") return WriteText(file, report::ToSvg(drawing));
+  if (kind == ".svg") return WriteText(file, report::SvgFile(drawing));
   // The newest check dates the file, so that the same checks give the same bytes.
   const auto bytes = kind == ".pdf" ? report::PdfDrawing(drawing, title, checks.back().at)
                                     : report::EncodePng(report::Rasterise(drawing, kPixelsPerPt));

@@ -72,9 +72,9 @@ ImageRgb ColourBar(const Scale& values, int height_px, double scale) {
   return report::Rasterise(bar, scale);
 }
 
-void Paste(const ImageRgb& part, int col, ImageRgb& whole) {
-  for (int y = 0; y < std::min(part.height(), whole.height()); ++y) {
-    std::copy_n(part.Row(y), std::min(part.width(), whole.width() - col), whole.Row(y) + col);
+void Paste(const ImageRgb& part, int col, int row, ImageRgb& whole) {
+  for (int y = 0; y < std::min(part.height(), whole.height() - row); ++y) {
+    std::copy_n(part.Row(y), std::min(part.width(), whole.width() - col), whole.Row(row + y) + col);
   }
 }
 

@@ -21,7 +21,7 @@ constexpr double kBarWidth = 62;  ///< points, labels included
 /// The bar with its labels, `scale` pixels a point.
 ImageRgb ColourBar(const Scale& values, int height_px, double scale);
 
-/// Lays `part` into `whole` from column `col` on, what fits.
-void Paste(const ImageRgb& part, int col, ImageRgb& whole);
+/// Lays `part` into `whole` from column `col` and row `row` on, what fits.
+void Paste(const ImageRgb& part, int col, int row, ImageRgb& whole);
 
 }  // namespace striae::app

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "app/io/colour_bar.h"
 #include "report/drawing.h"
 #include "report/picture.h"
 
@@ -71,12 +72,6 @@ ImageRgb Title(const std::string& text, int width_px) {
   title.height = kTitle_px / kScale;
   title.Text({2, title.height - 4}, 8, text, kInk);
   return report::Rasterise(title, kScale);
-}
-
-void Paste(const ImageRgb& part, int col, int row, ImageRgb& whole) {
-  for (int y = 0; y < std::min(part.height(), whole.height() - row); ++y) {
-    std::copy_n(part.Row(y), std::min(part.width(), whole.width() - col), whole.Row(row + y) + col);
-  }
 }
 
 }  // namespace

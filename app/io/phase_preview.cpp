@@ -54,7 +54,7 @@ Result<std::vector<std::uint8_t>> MapPreview(const ImageF& values, const Scale& 
       picture(x, y) = Viridis((cells(x, y) / per_unit - range.low) / (range.high - range.low));
     }
   }
-  Paste(ColourBar(range, height, scale), cells.width(), picture);
+  Paste(ColourBar(range, height, scale), cells.width(), 0, picture);
   return report::EncodePng(picture);
 }
 

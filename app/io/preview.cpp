@@ -111,7 +111,7 @@ Result<std::vector<std::uint8_t>> DepthPreview(const Surface& surface, std::opti
       picture(x, y) = Viridis((range->far_mm - depth) / (range->far_mm - range->near_mm));
     }
   }
-  Paste(ColourBar({range->near_mm, range->far_mm, "mm", true}, height, scale), map_width, picture);
+  Paste(ColourBar({range->near_mm, range->far_mm, "mm", true}, height, scale), map_width, 0, picture);
   return report::EncodePng(picture);
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "report/drawing.h"
+
 namespace striae::report {
 namespace {
 
@@ -72,6 +74,15 @@ TEST(Picture, KeepsItsMeanWhenTheSizesDoNotDivide) {
 }
 
 TEST(Picture, IsNeverEnlarged) { EXPECT_EQ(ShrinkToFit(Ramp(60, 40), 600, 600).pixels(), Ramp(60, 40).pixels()); }
+
+TEST(Drawing, NamesItsNamespaceInAFileOfItsOwnOnly) {
+  // Without it a viewer shows the file as text; a report must not name any address.
+  Drawing drawing;
+  drawing.width = drawing.height = 10;
+  const std::string name_space = " xmlns=\"http://www.w3.org/2000/svg\"";
+  EXPECT_EQ(SvgFile(drawing), "<svg" + name_space + ToSvg(drawing).substr(4));
+  EXPECT_EQ(ToSvg(drawing).find("xmlns"), std::string::npos);
+}
 
 }  // namespace
 }  // namespace striae::report
