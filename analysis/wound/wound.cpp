@@ -12,6 +12,7 @@
 #include "analysis/wound/detail/report.h"
 #include "analysis/wound/detail/scene.h"
 #include "analysis/wound/detail/stale.h"
+#include "analysis/wound/detail/surface_noise.h"
 #include "analysis/wound/detail/swelling.h"
 
 namespace striae::wound {
@@ -38,12 +39,14 @@ double WideReach(const Scene& scene, const Options& options) {
   return std::max(45.0, across_mm + 2 * options.gaps_mm.front() + options.ring_width_mm + 6);
 }
 
-// The Fourier stage's kernel on the skin: stripes of so many pixels, which are so far apart there. Its window is flat
-// at its top; what rounds is the background's removal, a mean over T twice: beside f T = 1, 1 - sinc^2 falls by
-// (f T - 1)^2.
-double ResolutionOf(const Surface& surface, double pixel_mm, const Options& options) {
+// The Fourier stage's window is flat at its top; what rounds is the background's removal, a mean over T twice: beside
+// f T = 1, 1 - sinc^2 falls by (f T - 1)^2.
+constexpr double kStripesPerResolution = std::numbers::sqrt2 * std::numbers::pi;
+
+// Distance of the stripes on the skin: of so many pixels each.
+double StripeOf(const Surface& surface, double pixel_mm, const Options& options) {
   const auto period_px = CarrierPeriodOf(surface);
-  return period_px ? *period_px * pixel_mm / (std::numbers::sqrt2 * std::numbers::pi) : options.resolution_mm;
+  return period_px ? *period_px * pixel_mm : options.resolution_mm * kStripesPerResolution;
 }
 
 // Sd of the smoothing that frees a line of its shakes: four times its roughness, and not less than its points' spacing,
@@ -64,7 +67,7 @@ nlohmann::json NullsAsJson(const IntactSkin& intact, std::size_t model) {
 
 }  // namespace
 
-std::string_view MethodVersion() { return "wound/4"; }
+std::string_view MethodVersion() { return "wound/5"; }
 
 Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, const Options& options,
                                WoundMaps* maps) {
@@ -99,8 +102,11 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   const auto smoothed = SmoothedHeights(scene, a.skin, options.smoothing_mm, a.ring.gap_mm + a.ring.width_mm);
   findings.noise_mm = SmoothedRingSd(scene, smoothed, a.ring);
   findings.depths = MeasureDepths(scene, bed, a.skin, smoothed, kProudNoise * findings.noise_mm);
-  findings.resolution_mm = ResolutionOf(surface, scene.patch.pixel_mm, options);
-  findings.deepest = FindDeepest(scene, bed, a.skin, findings.depths, options.deepest_mm, findings.resolution_mm);
+  findings.stripe_mm = StripeOf(surface, scene.patch.pixel_mm, options);
+  findings.resolution_mm = findings.stripe_mm / kStripesPerResolution;
+  findings.skin_uncertainty_mm = SkinUncertainty(scene, a.ring);
+  findings.deepest = FindDeepest(scene, bed, a.skin, findings.depths, options.deepest_mm, findings.resolution_mm,
+                                 findings.skin_uncertainty_mm);
   findings.boundary = MeasureBoundary(scene.outline, a.skin, options.perimeter_step_mm, scene.patch.cell_mm(),
                                       LineSmoothing(scene, plus->line, outline.polygon_px.size()));
   findings.line = plus->line;
@@ -133,6 +139,7 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   report.details["net_volume_ml"] = *net / 1000;
   report.details["net_volume_at_first_gap_ml"] = choice->first_volume_mm3 / 1000;
   report.details["volume_uncertainty_parts_ml"] = budget.volume_parts_ml;
+  report.details["depth_max_uncertainty_parts_mm"] = budget.depth_parts_mm;
   report.details["depth_max"] = {{"smoothed_mm", findings.depths.max_mm},
                                  {"window_correction_mm", findings.deepest.correction_mm},
                                  {"fit_noise_mm", findings.deepest.noise_mm}};

@@ -32,10 +32,10 @@ struct Options {
   double outline_sd_mm = 0.05;     /**< standard uncertainty of the drawn line's place, as a common offset: half a
                                         pixel at 1 m. The line's own shakes are added; what an operator would take for
                                         the edge on another day is not in it */
-  double wall_sd_mm = 0.01;  ///< standard uncertainty of the place of a wound's walls: the Fourier stage rounds them
-  double rim_share = 0.15; /**< standard uncertainty of the rim's cross-section as a share of the kernel's variance: the
-                                kernel weighs by light, and skin reflects more than the bed beside it */
-  double bridge_mm = 2;    ///< holes inside the wound are bridged up to this far from a measured point
+  /// For surfaces that name no uncertainties: of the place of a wound's walls, which the Fourier stage rounds, and of
+  /// the rim's cross-section as a share of the kernel's variance (it weighs by light, and skin reflects more than bed).
+  double wall_sd_mm = 0.01, rim_share = 0.15;
+  double bridge_mm = 2;              ///< holes inside the wound are bridged up to this far from a measured point
   double scale_relative_sd = 0.001;  ///< standard uncertainty of the surface's scale (calibration)
 };
 

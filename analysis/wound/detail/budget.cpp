@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/wound/detail/surface_noise.h"
 #include "analysis/wound/detail/uncertainty.h"
 
 namespace striae::wound {
@@ -12,8 +13,8 @@ constexpr double kComparableFit = 1.2;       // a model whose ring rms is worse 
 constexpr double kComparableScore = 1.5;     // nor one that continues intact skin worse than this
 constexpr double kBridgeRelativeSd = 0.1;    // of the volume over bridged holes
 constexpr double kBedAreaRelativeSd = 0.02;  // smoothing rounds the rim
-constexpr double kDepthRelativeSd = 0.005;   // the Fourier window rings at steep walls
-constexpr double kDepthShare = 0.0175;       // of the kernel's sd: what it leaves of an uneven bed's deepest place
+constexpr double kWallsDepthSd = 0.005;      // of the 95th percentile, which lies where walls begin
+constexpr double kDeepestSd = 0.0025;  // of the greatest depth: the calibration's scale, and what walls around it leave
 constexpr double kBowlShare = 1.5;  // of what the kernel takes from a bowl of the wound's size: its walls are steeper
 
 double RootOfSquares(std::initializer_list<double> parts) {
@@ -65,16 +66,28 @@ Alternatives CompareModels(const Attempt& a, const ModelChoice& choice, const Be
 
 /// Standard uncertainties of the volume, mm3.
 struct VolumeParts {
-  double ring = 0, bed = 0, model = 0, nulls = 0, gap = 0, outline = 0, walls = 0, bridges = 0, scale = 0;
+  double ring = 0, bed = 0, model = 0, nulls = 0, gap = 0, outline = 0, surface = 0, bridges = 0, scale = 0;
   [[nodiscard]] double Sum() const {
-    return RootOfSquares({ring, bed, model, nulls, gap, outline, walls, bridges, scale});
+    return RootOfSquares({ring, bed, model, nulls, gap, outline, surface, bridges, scale});
   }
 };
 
 nlohmann::json ToJson(const VolumeParts& u) {
   return {{"ring", u.ring / 1000},         {"bed", u.bed / 1000},         {"model", u.model / 1000},
           {"null_wounds", u.nulls / 1000}, {"gap", u.gap / 1000},         {"outline", u.outline / 1000},
-          {"walls", u.walls / 1000},       {"bridges", u.bridges / 1000}, {"scale", u.scale / 1000}};
+          {"surface", u.surface / 1000},   {"bridges", u.bridges / 1000}, {"scale", u.scale / 1000}};
+}
+
+/// Standard uncertainties of the greatest depth, mm.
+struct DepthParts {
+  double ring = 0, model = 0, smoothed_ring = 0, fit = 0, surface = 0, bowl = 0, scale = 0;
+  [[nodiscard]] double Sum() const { return RootOfSquares({ring, model, smoothed_ring, fit, surface, bowl, scale}); }
+};
+
+nlohmann::json ToJson(const DepthParts& u) {
+  return {{"ring", u.ring},  {"model", u.model},     {"smoothed_ring", u.smoothed_ring},
+          {"fit", u.fit},    {"surface", u.surface}, {"bowl", u.bowl},
+          {"scale", u.scale}};
 }
 
 // How the volume changes when the drawn line moves out or in by its uncertainty.
@@ -85,6 +98,13 @@ double OutlinePart(const Scene& scene, const Skin& skin, double roughness_mm, co
     return PrismSum(bed, HeightsAbove(bed, skin));
   };
   return std::abs(net_at(options.margin_mm + off_mm) - net_at(options.margin_mm - off_mm)) / 2;
+}
+
+// Where a surface names no uncertainties: a wall's place, and light that changes at the rim while the bed begins to
+// fall.
+double WallsPart(const Findings& f, const Options& options) {
+  return f.boundary.perimeter_mm *
+         RootOfSquares({options.wall_sd_mm * f.depths.p95_mm, options.rim_share * f.resolution_mm * f.resolution_mm});
 }
 
 // Area: the line's shakes, and a common offset; lengths likewise, a shake at either end.
@@ -102,19 +122,6 @@ void SetLengths(const Boundary& boundary, const LineStudy& line, const Options& 
 
 }  // namespace
 
-double SmoothedRingSd(const Scene& scene, const std::vector<double>& smoothed, const Ring& ring) {
-  std::vector<double> size;
-  for (std::size_t c = 0; c < scene.patch.size(); ++c) {
-    const double d = scene.place[c].distance;
-    if (scene.patch.state[c] == Patch::kMeasured && d >= ring.gap_mm && d <= ring.gap_mm + ring.width_mm) {
-      size.push_back(std::abs(smoothed[c]));
-    }
-  }
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  return 1.4826 * *middle;
-}
-
 Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, const ModelChoice& model,
                   const IntactSkin& intact, const Findings& f, const Options& options, Flags& flags) {
   const Attempt& a = choice.chosen;
@@ -130,8 +137,8 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
   u.nulls = intact.Rms(model.model, 2).value_or(0) * f.boundary.area_mm2;
   u.gap = SdOf(f.net_mm3, choice.other_gap_volumes_mm3);
   u.outline = OutlinePart(scene, a.skin, f.line.roughness, options);
-  u.walls = f.boundary.perimeter_mm * RootOfSquares({options.wall_sd_mm * f.depths.p95_mm,
-                                                     options.rim_share * f.resolution_mm * f.resolution_mm});
+  u.surface =
+      f.skin_uncertainty_mm > 0 ? VolumeSdOfBed(scene, bed, f.skin_uncertainty_mm, f.stripe_mm) : WallsPart(f, options);
   u.bridges = kBridgeRelativeSd * f.depths.bridged_mm3;
   u.scale = 3 * options.scale_relative_sd * volume;
   if (std::abs(volume) < 2 * u.Sum()) flags.volume.push_back("not distinguishable from no wound");
@@ -148,20 +155,25 @@ Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, cons
   const double bed_area = f.depths.bed_area_mm2;
   figures.bed_area = {bed_area,
                       RootOfSquares({figures.area.uncertainty * bed_area / area, kBedAreaRelativeSd * bed_area})};
-  const double u_skin = RootOfSquares({HeightSd(a.skin, covariance, f.depths.deepest), models.depth_sd_mm, f.noise_mm});
-  const auto with_sd = [&](double depth) { return Figure{depth, RootOfSquares({u_skin, kDepthRelativeSd * depth})}; };
   // d (1 - r^2 / R^2) loses half its second derivative times s^2; the fitted quadric gives back what it sees of it.
   const double bowl_mm =
       f.deepest.depth_mm * f.resolution_mm * f.resolution_mm * M_PI / std::max(f.boundary.plane_area_mm2, 1e-9);
-  const double gain_mm = f.deepest.depth_mm - f.depths.max_mm;  // of the fit and the correction on the smoothed depth
-  figures.depth_max = {f.deepest.depth_mm,
-                       RootOfSquares({u_skin, f.deepest.noise_mm, gain_mm / 2, kDepthShare * f.resolution_mm,
-                                      kBowlShare * bowl_mm, kDepthRelativeSd * f.deepest.depth_mm})};
-  figures.depth_p95 = with_sd(f.depths.p95_mm);
+  DepthParts d;
+  d.ring = HeightSd(a.skin, covariance, f.depths.deepest);
+  d.model = models.depth_sd_mm;
+  d.smoothed_ring = f.noise_mm;
+  d.fit = f.deepest.noise_mm;
+  d.surface = f.skin_uncertainty_mm > 0 ? f.deepest.surface_mm : (f.deepest.depth_mm - f.depths.max_mm) / 2;
+  d.bowl = kBowlShare * bowl_mm;
+  d.scale = kDeepestSd * f.deepest.depth_mm;
+  figures.depth_max = {f.deepest.depth_mm, d.Sum()};
+  figures.depth_p95 = {f.depths.p95_mm,
+                       RootOfSquares({d.ring, d.model, d.smoothed_ring, d.surface, kWallsDepthSd * f.depths.p95_mm})};
   figures.depth_mean = {volume / area,
                         RootOfSquares({u.Sum() / area, volume / area * figures.area.uncertainty / area})};
   budget.models = models.table;
   budget.volume_parts_ml = ToJson(u);
+  budget.depth_parts_mm = ToJson(d);
   return budget;
 }
 

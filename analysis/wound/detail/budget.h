@@ -15,9 +15,11 @@ namespace striae::wound {
 
 /// Everything that was measured, before uncertainties.
 struct Findings {
-  double net_mm3 = 0;        ///< under the skin minus above it, with the margin
-  double noise_mm = 0;       ///< robust sd of the smoothed ring about the skin
-  double resolution_mm = 0;  ///< sd of the reconstruction's kernel on the skin
+  double net_mm3 = 0;              ///< under the skin minus above it, with the margin
+  double noise_mm = 0;             ///< robust sd of the smoothed ring about the skin
+  double stripe_mm = 0;            ///< distance of the stripes on the skin
+  double resolution_mm = 0;        ///< sd of the reconstruction's kernel on the skin
+  double skin_uncertainty_mm = 0;  ///< the surface's own, median over the ring
   Depths depths;
   Deepest deepest;
   LineStudy line;
@@ -28,13 +30,11 @@ struct Budget {
   Figures figures;
   nlohmann::json models = nlohmann::json::array();  ///< what each model of the skin gives
   nlohmann::json volume_parts_ml;                   ///< standard uncertainties of the volume, by cause
+  nlohmann::json depth_parts_mm;                    ///< the same of the greatest depth
 };
 
 /// Values with standard uncertainties; adds flags where the volume is doubtful.
 Budget DrawBudget(const Scene& scene, const Bed& bed, const Choice& choice, const ModelChoice& model,
                   const IntactSkin& intact, const Findings& findings, const Options& options, Flags& flags);
-
-/// Robust sd of smoothed heights over the ring.
-double SmoothedRingSd(const Scene& scene, const std::vector<double>& smoothed, const Ring& ring);
 
 }  // namespace striae::wound

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
+
+#include "analysis/wound/detail/surface_noise.h"
 
 namespace striae::wound {
 namespace {
@@ -17,7 +20,9 @@ constexpr double kMostGain = 0.15;  // of the smoothed depth
 constexpr double kTogether = 4;     // root of the cells that a stripe's error is common to
 
 struct Sample {
-  double x, y, height;  // columns and rows of cells from the deepest one, mm; skin above the bed
+  double x, y, depth;  // columns and rows of cells from the deepest one, mm; along the skin's normal
+  double uncertainty;  // of the surface there, mm; 0 where none is known
+  double weight = 1;
 };
 
 Vector6 Terms(double x, double y) {
@@ -34,29 +39,44 @@ struct Fit {
 
 Fit FitQuadratic(const std::vector<Sample>& samples) {
   Fit fit;
-  std::vector<double> weight(samples.size(), 1), size(samples.size());
+  std::vector<double> weight(samples.size()), size(samples.size());
+  for (std::size_t k = 0; k < samples.size(); ++k) weight[k] = samples[k].weight;
   for (int round = 0; round < 4; ++round) {
     Matrix6 normal = Matrix6::Zero();
     Vector6 right = Vector6::Zero();
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const Vector6 t = Terms(samples[k].x, samples[k].y);
       normal += weight[k] * t * t.transpose();
-      right += weight[k] * samples[k].height * t;
+      right += weight[k] * samples[k].depth * t;
     }
     const auto factor = normal.ldlt();
     fit.coefficients = factor.solve(right);
     fit.inverse = factor.solve(Matrix6::Identity());
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      size[k] = std::abs(samples[k].height - fit.coefficients.dot(Terms(samples[k].x, samples[k].y)));
+      size[k] = std::abs(samples[k].depth - fit.coefficients.dot(Terms(samples[k].x, samples[k].y)));
     }
     std::vector<double> sorted = size;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
     fit.sd = std::max(kMadToSd * *middle, 1e-9);
     for (std::size_t k = 0; k < samples.size(); ++k)
-      weight[k] = std::min(1.0, kHuber * fit.sd / std::max(size[k], 1e-12));
+      weight[k] = samples[k].weight * std::min(1.0, kHuber * fit.sd / std::max(size[k], 1e-12));
   }
   return fit;
+}
+
+// Weights by the surface's own uncertainties, at most 1; their root of the weighted mean square. 0 where not all are
+// known.
+double WeighByUncertainty(std::vector<Sample>& samples) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Sample& s : samples) least = std::min(least, s.uncertainty);
+  if (least <= 0) return 0;
+  double inverse = 0;
+  for (Sample& s : samples) {
+    s.weight = least * least / (s.uncertainty * s.uncertainty);
+    inverse += 1 / (s.uncertainty * s.uncertainty);
+  }
+  return std::sqrt(static_cast<double>(samples.size()) / inverse);
 }
 
 // Where within the circle the quadratic is highest: on a grid, as a ridge's top may lie on its rim.
@@ -80,7 +100,7 @@ Eigen::Vector2d TopOf(const Fit& fit, double radius_mm) {
 }  // namespace
 
 Deepest FindDeepest(const Scene& scene, const Bed& bed, const Skin& skin, const Depths& smoothed, double radius_mm,
-                    double resolution_mm) {
+                    double resolution_mm, double skin_uncertainty_mm) {
   const auto width = static_cast<std::size_t>(scene.patch.width);
   const double cell = scene.patch.cell_mm();
   std::size_t middle = 0;
@@ -96,25 +116,22 @@ Deepest FindDeepest(const Scene& scene, const Bed& bed, const Skin& skin, const 
     const double x = col(k) - col(middle), y = row(k) - row(middle);
     if (scene.patch.state[bed.cell[k]] != Patch::kMeasured || bed.distance[k] > 0 || std::hypot(x, y) > radius_mm)
       continue;
-    const auto& p = bed.point[k];
-    samples.push_back({x, y, skin.Height(p.x(), p.y()) - p.z()});
+    samples.push_back({x, y, NormalDepth(skin, bed.point[k]), scene.patch.UncertaintyMm(bed.cell[k])});
   }
-  Deepest deepest{smoothed.max_mm, 0, 0};
+  Deepest deepest;
+  deepest.depth_mm = smoothed.max_mm;
   if (samples.size() < kLeastPoints) return deepest;
+  deepest.surface_mm = BeyondSkin(WeighByUncertainty(samples), skin_uncertainty_mm);
   const Fit fit = FitQuadratic(samples);
   const Eigen::Vector2d top = TopOf(fit, 0.6 * radius_mm);
   const Vector6 terms = Terms(top.x(), top.y());
-  const double along_axis = fit.coefficients.dot(terms);
+  const double top_mm = fit.coefficients.dot(terms);
   const double bend = std::max(0.0, -std::min(fit.coefficients[3], fit.coefficients[5]));
   deepest.correction_mm = resolution_mm * resolution_mm / 2 * bend;
-  const Eigen::Vector2d g = skin.Gradient(smoothed.deepest.x(), smoothed.deepest.y());
-  const double to_normal = 1 / std::sqrt(1 + g.squaredNorm());
-  deepest.correction_mm *= to_normal;
   deepest.noise_mm = kTogether * fit.sd * std::sqrt(std::max(0.0, terms.dot(fit.inverse * terms)));
   const double most = kMostGain * smoothed.max_mm;
   deepest.correction_mm = std::min(deepest.correction_mm, most);
-  deepest.depth_mm =
-      std::clamp(along_axis * to_normal + deepest.correction_mm, smoothed.max_mm, smoothed.max_mm + 2 * most);
+  deepest.depth_mm = std::clamp(top_mm + deepest.correction_mm, smoothed.max_mm, smoothed.max_mm + 2 * most);
   return deepest;
 }
 

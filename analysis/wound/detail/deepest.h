@@ -9,6 +9,7 @@ struct Deepest {
   double depth_mm = 0;       ///< along the skin's normal
   double noise_mm = 0;       ///< standard uncertainty from the fit's residuals, which hang together over a stripe
   double correction_mm = 0;  ///< what of it undoes the window
+  double surface_mm = 0;     ///< by how much the surface is less certain there than on the skin around
 };
 
 /// A quadratic through the unsmoothed heights within `radius_mm` of where the smoothed bed is deepest, robust against
@@ -18,6 +19,6 @@ struct Deepest {
 /// shallower than the smoothed depth, nor deeper than it by more than `most` of it: nothing then is known of so sharp a
 /// pit.
 Deepest FindDeepest(const Scene& scene, const Bed& bed, const Skin& skin, const Depths& smoothed, double radius_mm,
-                    double resolution_mm);
+                    double resolution_mm, double skin_uncertainty_mm);
 
 }  // namespace striae::wound

@@ -74,18 +74,22 @@ void AverageCells(const Surface& surface, const Image<std::int32_t>& grid, Patch
   for (int j = 0; j < patch.height; ++j) {
     for (int i = 0; i < patch.width; ++i) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      double uncertainty = 0;
       int count = 0;
       for (int r = 0; r < patch.bin_px; ++r) {
         for (int c = 0; c < patch.bin_px; ++c) {
           const int col = patch.col0_px + i * patch.bin_px + c, row = patch.row0_px + j * patch.bin_px + r;
           const auto index = grid.Contains(col, row) ? grid(col, row) : -1;
           if (index < 0) continue;
-          sum += surface.point_in_camera[static_cast<std::size_t>(index)].cast<double>();
+          const auto vertex = static_cast<std::size_t>(index);
+          sum += surface.point_in_camera[vertex].cast<double>();
+          if (!surface.uncertainty_mm.empty()) uncertainty += static_cast<double>(surface.uncertainty_mm[vertex]);
           ++count;
         }
       }
       if (2 * count < patch.bin_px * patch.bin_px) continue;
       patch.point[patch.At(i, j)] = sum / count;
+      patch.uncertainty_mm[patch.At(i, j)] = static_cast<float>(uncertainty / count);
       patch.state[patch.At(i, j)] = Patch::kMeasured;
     }
   }
@@ -148,6 +152,7 @@ Result<Patch> CutPatch(const Surface& surface, const std::vector<Eigen::Vector2d
   patch.point.assign(static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height),
                      Eigen::Vector3d::Zero());
   patch.state.assign(patch.point.size(), Patch::kMissing);
+  patch.uncertainty_mm.assign(patch.point.size(), 0);
   patch.rays.Fit(surface, VerticesIn(grid, box, 4000));
   AverageCells(surface, grid, patch);
   return patch;

@@ -34,6 +34,7 @@ struct Patch {
   double pixel_mm = 0;                 ///< median distance between neighbouring surface points
   std::vector<Eigen::Vector3d> point;  ///< camera frame, mm
   std::vector<State> state;
+  std::vector<float> uncertainty_mm;  ///< mean standard uncertainty of the cell's points; 0 where none is known
   RayModel rays;
 
   [[nodiscard]] double cell_mm() const { return pixel_mm * bin_px; }
@@ -41,6 +42,7 @@ struct Patch {
   [[nodiscard]] std::size_t At(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i);
   }
+  [[nodiscard]] double UncertaintyMm(std::size_t cell) const { return static_cast<double>(uncertainty_mm[cell]); }
   /// Sensor position of a cell's centre.
   [[nodiscard]] Eigen::Vector2d Pixel(int i, int j) const {
     const double half = (bin_px - 1) / 2.0;

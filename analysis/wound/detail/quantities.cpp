@@ -13,6 +13,10 @@ namespace {
 
 using Mask = std::vector<std::uint8_t>;
 
+// The greatest of many depths is one that errs by much: it is sought among depths less twice their standard
+// uncertainties, which grow beside shadows and steep walls.
+constexpr double kSure = 2;
+
 // Quads (by their first cell) whose four corners are there and whose centre lies within the margin.
 Mask QuadsWithin(const Scene& scene, double margin_mm) {
   const Patch& patch = scene.patch;
@@ -112,20 +116,6 @@ void SmoothAlong(const Patch& patch, double sd_cells, bool rows, std::vector<dou
   mass = std::move(mass_out);
 }
 
-// Distance of a point below the skin from it, along the skin's own normal: the foot f of the normal through p obeys
-// p = f - depth n(f), solved by repeated substitution (it contracts while the depth is below the radius of curvature).
-double NormalDepth(const Skin& skin, const Eigen::Vector3d& p) {
-  Eigen::Vector2d foot = p.head<2>();
-  double depth = 0;
-  for (int k = 0; k < 4; ++k) {
-    const Eigen::Vector2d g = skin.Gradient(foot.x(), foot.y());
-    const Eigen::Vector3d normal = Eigen::Vector3d(-g.x(), -g.y(), 1).normalized();
-    depth = normal.dot(Eigen::Vector3d(foot.x(), foot.y(), skin.Height(foot.x(), foot.y())) - p);
-    foot = p.head<2>() + depth * normal.head<2>();
-  }
-  return depth;
-}
-
 double Percentile95(std::vector<std::pair<double, double>> value_and_area) {
   std::sort(value_and_area.begin(), value_and_area.end());
   double total = 0;
@@ -139,6 +129,20 @@ double Percentile95(std::vector<std::pair<double, double>> value_and_area) {
 }
 
 }  // namespace
+
+double NormalDepth(const Skin& skin, const Eigen::Vector3d& p) {
+  // The foot f of the normal through p obeys p = f - depth n(f): repeated substitution contracts while the depth is
+  // below the radius of curvature.
+  Eigen::Vector2d foot = p.head<2>();
+  double depth = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector2d g = skin.Gradient(foot.x(), foot.y());
+    const Eigen::Vector3d normal = Eigen::Vector3d(-g.x(), -g.y(), 1).normalized();
+    depth = normal.dot(Eigen::Vector3d(foot.x(), foot.y(), skin.Height(foot.x(), foot.y())) - p);
+    foot = p.head<2>() + depth * normal.head<2>();
+  }
+  return depth;
+}
 
 Bed TakeBed(const Scene& scene, double margin_mm) {
   const Patch& patch = scene.patch;
@@ -214,13 +218,17 @@ Depths MeasureDepths(const Scene& scene, const Bed& bed, const Skin& skin, const
   Depths depths;
   std::vector<double> depth(bed.cell.size()), height(bed.cell.size());
   Bed smooth = bed;
+  double surely_deepest = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < bed.cell.size(); ++k) {
     auto& p = smooth.point[k];
     height[k] = smoothed[bed.cell[k]];
     p.z() = skin.Height(p.x(), p.y()) - height[k];
     depth[k] = NormalDepth(skin, p);
-    if (bed.distance[k] <= 0 && depth[k] > depths.max_mm) {
-      depths.max_mm = depth[k];
+    const std::size_t cell = bed.cell[k];
+    const double surely = depth[k] - kSure * scene.patch.UncertaintyMm(cell);
+    if (bed.distance[k] <= 0 && scene.patch.state[cell] == Patch::kMeasured && surely > surely_deepest) {
+      surely_deepest = surely;
+      depths.max_mm = std::max(0.0, depth[k]);
       depths.deepest = p.head<2>();
     }
   }

@@ -23,6 +23,9 @@ struct Bed {
 /// Cells within `margin_mm` outside the outline; corner-touching parts are joined, separate specks dropped.
 Bed TakeBed(const Scene& scene, double margin_mm);
 
+/// Distance of a point below the skin from it along the skin's own normal, mm; negative above it.
+double NormalDepth(const Skin& skin, const Eigen::Vector3d& p);
+
 /// Height of the skin above the bed at each bed point, along w.
 std::vector<double> HeightsAbove(const Bed& bed, const Skin& skin);
 /// Sum of vertical prisms, mm3: the same as VolumeBetween, but cheap (for many skins in turn).
