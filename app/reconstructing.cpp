@@ -7,6 +7,7 @@
 
 #include "app/io/files.h"
 #include "core/provenance.h"
+#include "core/surface_comments.h"
 #include "reconstruct/order.h"
 
 namespace striae::app {
@@ -56,7 +57,7 @@ Result<Calibration> ReadCalibration(const std::filesystem::path& path, Sha256& s
 }
 
 void SayWhatItIsMadeOf(const Sha256& photograph, const Sha256& calibration, std::vector<std::string>& comments) {
-  const std::string lines[] = {"striae " + std::string(StriaeVersion()), "photograph sha256 " + photograph.ToString(),
+  const std::string lines[] = {"striae " + std::string(StriaeVersion()), PhotographComment(photograph),
                                "calibration sha256 " + calibration.ToString()};
   comments.insert(comments.begin(), std::begin(lines), std::end(lines));
 }

@@ -5,7 +5,9 @@
 
 #include "app/io/colour_bar.h"
 #include "app/io/files.h"
+#include "app/io/photograph.h"
 #include "app/wound_view.h"
+#include "core/surface_comments.h"
 #include "report/drawing.h"
 #include "report/picture.h"
 
@@ -45,12 +47,11 @@ ImageRgb WithFooter(const ImageRgb& picture, double px_per_mm, const std::string
   return whole;
 }
 
-void DrawOutline(const Outline& outline, const wound::WoundMaps& maps, int times, ImageRgb& picture) {
+// `first_px` is the sensor pixel in the picture's corner, and `times` its pixels for one of the sensor.
+void DrawOutline(const Outline& outline, const Eigen::Vector2d& first_px, double times, ImageRgb& picture) {
   const std::size_t n = outline.polygon_px.size();
-  const auto cell = [&](const Eigen::Vector2d& p) {
-    const Eigen::Vector2d first(maps.col0_px - 0.5, maps.row0_px - 0.5);  // the sensor pixel's corner
-    return Eigen::Vector2d((p - first) * times / maps.cell_px - Eigen::Vector2d(0.5, 0.5));
-  };
+  const Eigen::Vector2d half(0.5, 0.5);  // integers are the middles of pixels
+  const auto cell = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d((p - first_px + half) * times - half); };
   for (std::size_t k = 0; k < n; ++k) {
     const Eigen::Vector2d a = cell(outline.polygon_px[k]), b = cell(outline.polygon_px[(k + 1) % n]);
     const int steps = 1 + static_cast<int>(2 * (b - a).norm());
@@ -158,8 +159,9 @@ Result<std::vector<std::string>> WriteWoundPictures(const fs::path& folder, cons
   const int times = EnlargementOf(colours);
   const double px_per_mm = times / maps.cell_mm;
   ImageRgb photo = Enlarged(colours, times), depth = Enlarged(Depths(maps), times);
-  DrawOutline(outline, maps, times, photo);
-  DrawOutline(outline, maps, times, depth);
+  const Eigen::Vector2d first_px(maps.col0_px, maps.row0_px);
+  for (ImageRgb* picture : {&photo, &depth})
+    DrawOutline(outline, first_px, static_cast<double>(times) / maps.cell_px, *picture);
   photo = WithFooter(photo, px_per_mm, "grey: nothing measured");
   depth = WithFooter(WithDepthBar(depth), px_per_mm, "depth below the virtual skin");
   const ImageRgb view =
@@ -176,6 +178,41 @@ Result<std::vector<std::string>> WriteWoundPictures(const fs::path& folder, cons
   if (Status done = WriteText(sections, SvgFile(Sections(maps))); !done) return Fail(done.error());
   written.push_back(sections.string());
   return written;
+}
+
+Result<ImageRgb> PhotographOfSurface(const fs::path& path, const Surface& surface) {
+  const auto bytes = ReadFile(path);
+  if (!bytes) return Fail(bytes.error(), "reading the photograph");
+  const auto made_from = PhotographOf(surface);
+  if (made_from && *made_from != HashOf(*bytes)) {
+    return Fail(ErrorCode::kUsage, path.string() + " is not the photograph that the surface was made from (" +
+                                       made_from->ToString().substr(0, 12) + "...)");
+  }
+  auto photograph = DecodePhotograph(*bytes);
+  if (!photograph) return Fail(photograph.error(), path.string());
+  return std::move(photograph->colour);
+}
+
+ImageRgb OutlineOnPhotograph(const ImageRgb& photograph, const Outline& outline, double pixel_mm) {
+  constexpr double kAround_mm = 12;
+  Eigen::Vector2d low = outline.polygon_px.front(), high = low;
+  for (const auto& p : outline.polygon_px) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const int around = static_cast<int>(std::lround(kAround_mm / pixel_mm));
+  const int left = std::clamp(static_cast<int>(low.x()) - around, 0, photograph.width() - 1),
+            top = std::clamp(static_cast<int>(low.y()) - around, 0, photograph.height() - 1),
+            right = std::clamp(static_cast<int>(high.x()) + around, left, photograph.width() - 1),
+            bottom = std::clamp(static_cast<int>(high.y()) + around, top, photograph.height() - 1);
+  ImageRgb cut(right - left + 1, bottom - top + 1);
+  for (int row = top; row <= bottom; ++row) {
+    for (int col = left; col <= right; ++col) cut(col - left, row - top) = photograph(col, row);
+  }
+  const int times = EnlargementOf(cut);
+  ImageRgb picture = Enlarged(cut, times);
+  DrawOutline(outline, {left, top}, times, picture);
+  return WithFooter(picture, times / pixel_mm, "the photograph, in sensor orientation");
 }
 
 }  // namespace striae::app

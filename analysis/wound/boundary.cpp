@@ -4,15 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <random>
 
 #include "analysis/wound/detail/boundary_field.h"
 #include "analysis/wound/detail/line.h"
-#include "analysis/wound/detail/stale.h"
+#include "core/surface_comments.h"
 
 namespace striae::wound {
 namespace {
 
 constexpr double kLeastCells = 60;
+constexpr const char* kNothing = "nothing there differs enough from the skin around it; draw the outline by hand";
 
 // Mean and inverse spread of the two sides near the line, feature by feature: how like the wound a cell is, from -1
 // (skin) to 1 (wound), along the line between their means.
@@ -63,11 +65,31 @@ std::optional<Likeness> LearnLikeness(const BoundaryField& field, const Eigen::V
 
 // Colour has the sharper edge and is followed alone where it parts the two sides well; depth begins gently at many
 // rims.
-std::optional<Likeness> LearnLikeness(const BoundaryField& field) {
-  constexpr double kClearColour = 0.6;
+std::optional<Likeness> ClearColour(const BoundaryField& field) {
+  constexpr double kClear = 0.6;
   auto colour = LearnLikeness(field, {1, 1, 0});
-  if (colour && colour->spread < kClearColour) return colour;
-  return LearnLikeness(field, {1, 1, 1});
+  return colour && colour->spread < kClear ? colour : std::nullopt;
+}
+
+// Parts the cells, and says by what their border is to be followed. The photograph's hues are as sharp as it is, and
+// stand alone where they suffice: depths beside a rim are the surface's least sure ones.
+Result<Likeness> CutAndLearn(BoundaryField& field, bool by_hue) {
+  if (by_hue) {
+    auto hues = field.features;
+    for (auto& f : hues) f[2] = 0;
+    auto parted = field.classes;
+    if (CutOut(field.patch.width, field.patch.height, hues, parted)) {
+      std::swap(field.classes, parted);
+      if (auto colour = ClearColour(field)) return *colour;
+      std::swap(field.classes, parted);
+    }
+  }
+  if (auto cut = CutOut(field.patch.width, field.patch.height, field.features, field.classes); !cut) {
+    return Fail(cut.error());
+  }
+  if (auto colour = ClearColour(field)) return *colour;
+  if (auto both = LearnLikeness(field, {1, 1, 1})) return *both;
+  return Fail(ErrorCode::kMeasurementRefused, kNothing);
 }
 
 // Moves each point along the line's normal to the crossing nearest to it; where none is within reach it stays.
@@ -115,25 +137,27 @@ double ContrastShare(const BoundaryField& field, const Likeness& likeness, const
 }  // namespace
 
 Result<BoundaryProposal> ProposeBoundary(const Surface& surface, const BoundaryHints& hints,
-                                         const BoundaryOptions& options) {
-  auto field = PrepareField(surface, hints, options);
+                                         const BoundaryOptions& options, const ImageRgb* photograph) {
+  if (photograph != nullptr &&
+      (photograph->width() != surface.sensor_width_px || photograph->height() != surface.sensor_height_px)) {
+    return Fail(ErrorCode::kUsage, "the photograph has another size than the one that the surface was made from");
+  }
+  auto field = PrepareField(surface, hints, options, photograph);
   if (!field) return Fail(field.error());
   const Patch& patch = field->patch;
-  if (auto cut = CutOut(patch.width, patch.height, field->features, field->classes); !cut) return Fail(cut.error());
+  const auto learnt = CutAndLearn(*field, photograph != nullptr);
+  if (!learnt) return Fail(learnt.error());
   std::vector<std::uint8_t> inside(patch.size());
   for (std::size_t c = 0; c < patch.size(); ++c) inside[c] = field->classes[c] == CellClass::kWound ? 1 : 0;
   Polygon line;
   for (const auto& p : LongestBorder(patch.width, patch.height, inside)) line.emplace_back(p[0], p[1]);
-  const auto likeness = LearnLikeness(*field);
-  if (line.size() < 12 || !likeness) {
-    return Fail(ErrorCode::kMeasurementRefused,
-                "nothing there differs enough from the skin around it; draw the outline by hand");
-  }
+  if (line.size() < 12) return Fail(ErrorCode::kMeasurementRefused, kNothing);
   const double sd_cells = options.smoothing_mm / patch.cell_mm(), reach = options.refine_mm / patch.cell_mm();
   line = Smoothed(Resample(line, 1), sd_cells);
-  line = Smoothed(Resample(Refine(*field, *likeness, line, reach), 1.5), sd_cells);
+  line = Smoothed(Resample(Refine(*field, *learnt, line, reach), 1.5), sd_cells);
   BoundaryProposal proposal;
-  proposal.confidence = ContrastShare(*field, *likeness, line, 3);
+  proposal.confidence = ContrastShare(*field, *learnt, line, 3);
+  proposal.pixel_mm = patch.pixel_mm;
   proposal.area_mm2 = EnclosedArea(line) * patch.cell_mm() * patch.cell_mm();
   const Eigen::Vector2d first = patch.Pixel(0, 0);
   for (const auto& p : line) proposal.outline.polygon_px.push_back(first + p * patch.bin_px);
@@ -142,6 +166,44 @@ Result<BoundaryProposal> ProposeBoundary(const Surface& surface, const BoundaryH
   }
   proposal.outline.image_sha256 = PhotographOf(surface);
   return proposal;
+}
+
+BoundaryRepeatability RepeatBoundary(const Surface& surface, const BoundaryHints& hints,
+                                     const BoundaryProposal& proposal, const BoundaryOptions& options,
+                                     const ImageRgb* photograph) {
+  constexpr int kTimes = 8;
+  constexpr double kPointed_mm = 1.5, kDrawn_mm = 0.5;
+  BoundaryRepeatability repeats;
+  repeats.shaken_mm = hints.drawn.empty() ? kPointed_mm : kDrawn_mm;
+  std::mt19937 random(1);
+  std::normal_distribution<double> off(0, repeats.shaken_mm / proposal.pixel_mm);
+  const auto shake = [&](std::vector<Eigen::Vector2d>& points) {
+    for (auto& p : points) p += Eigen::Vector2d(off(random), off(random));
+  };
+  double sum = 0, squares = 0, distances = 0, points = 0;
+  for (; repeats.tried < kTimes; ++repeats.tried) {
+    BoundaryHints shaken = hints;
+    shake(shaken.box);
+    shake(shaken.drawn);
+    for (auto& stroke : shaken.wound_strokes) shake(stroke);
+    for (auto& stroke : shaken.skin_strokes) shake(stroke);
+    const auto again = ProposeBoundary(surface, shaken, options, photograph);
+    if (!again) continue;
+    ++repeats.found;
+    sum += again->area_mm2;
+    squares += again->area_mm2 * again->area_mm2;
+    const PolygonField line(again->outline.polygon_px);
+    for (const auto& p : proposal.outline.polygon_px) {
+      distances += std::pow(line.At(p).distance * proposal.pixel_mm, 2);
+      ++points;
+    }
+  }
+  if (repeats.found > 1) {
+    const double mean = sum / repeats.found;
+    repeats.area_cv = std::sqrt(std::max(0.0, squares - sum * mean) / (repeats.found - 1)) / mean;
+  }
+  repeats.line_sd_mm = points > 0 ? std::sqrt(distances / points) : 0;
+  return repeats;
 }
 
 }  // namespace striae::wound

@@ -11,9 +11,9 @@
 #include "analysis/wound/detail/quantities.h"
 #include "analysis/wound/detail/report.h"
 #include "analysis/wound/detail/scene.h"
-#include "analysis/wound/detail/stale.h"
 #include "analysis/wound/detail/surface_noise.h"
 #include "analysis/wound/detail/swelling.h"
+#include "core/surface_comments.h"
 
 namespace striae::wound {
 namespace {

@@ -16,6 +16,7 @@
 #include "app/head_series.h"
 #include "app/io/files.h"
 #include "core/ply.h"
+#include "core/surface_comments.h"
 
 namespace striae::app {
 namespace {
@@ -85,15 +86,6 @@ std::string Text(const AnalysisReport& report) {
   return text + Doubts(report) + "  axes: the camera's; standard uncertainties";
 }
 
-/// The photograph that a surface says it was made from, as hexadecimal text; empty where it says nothing.
-std::string PhotographOf(const Surface& surface) {
-  const std::string mark = "photograph sha256 ";
-  for (const std::string& comment : surface.comments) {
-    if (comment.rfind(mark, 0) == 0) return comment.substr(mark.size());
-  }
-  return {};
-}
-
 Result<Neutral> LoadNeutral(const HeadCommand& command) {
   auto loaded = Load(command.neutral, "neutral");
   if (!loaded) return Fail(loaded.error());
@@ -103,12 +95,12 @@ Result<Neutral> LoadNeutral(const HeadCommand& command) {
   if (!text) return Fail(text.error(), "reading the regions");
   auto regions = head::RegionsFromJson(*text);
   if (!regions) return Fail(regions.error(), "reading the regions " + command.regions.string());
-  const std::string photograph = PhotographOf(neutral.surface);
-  if (regions->image_sha256 && !photograph.empty() && regions->image_sha256->ToString() != photograph) {
+  const auto photograph = PhotographOf(neutral.surface);
+  if (regions->image_sha256 && photograph && *regions->image_sha256 != *photograph) {
     return Fail(ErrorCode::kMeasurementRefused,
                 "the regions " + command.regions.string() + " were drawn on another photograph (" +
                     regions->image_sha256->ToString().substr(0, 12) + "...) than the neutral surface was made from (" +
-                    photograph.substr(0, 12) + "...): draw them on the neutral photograph");
+                    photograph->ToString().substr(0, 12) + "...): draw them on the neutral photograph");
   }
   neutral.options.regions = *std::move(regions);
   neutral.regions_sha256 = HashOf({reinterpret_cast<const std::uint8_t*>(text->data()), text->size()});

@@ -12,12 +12,13 @@
 #include "app/wound_pictures.h"
 #include "core/outline.h"
 #include "core/ply.h"
+#include "report/picture.h"
 
 namespace striae::app {
 namespace {
 
 struct WoundOptions {
-  std::filesystem::path surface, outline, pictures;
+  std::filesystem::path surface, outline, pictures, photograph;
 };
 
 std::string Line(const Measurement& m) {
@@ -48,6 +49,17 @@ std::string Text(const AnalysisReport& report) {
   return text + method;
 }
 
+Result<std::string> DrawOnPhotograph(const WoundOptions& options, const Surface& surface, const Outline& outline,
+                                     const wound::WoundMaps& maps) {
+  const auto photograph = PhotographOfSurface(options.photograph, surface);
+  if (!photograph) return Fail(photograph.error());
+  const auto png = report::EncodePng(OutlineOnPhotograph(*photograph, outline, maps.cell_mm / maps.cell_px));
+  if (!png) return Fail(png.error());
+  const auto path = options.pictures / "photo.png";
+  if (Status done = WriteFile(path, *png); !done) return Fail(done.error());
+  return path.string();
+}
+
 Status Run(const WoundOptions& options, Context& context) {
   const auto surface_bytes = ReadFile(options.surface);
   if (!surface_bytes) return Fail(surface_bytes.error(), "reading the surface");
@@ -67,6 +79,11 @@ Status Run(const WoundOptions& options, Context& context) {
     const auto written = WriteWoundPictures(options.pictures, *surface, *outline, maps);
     if (!written) return Fail(written.error(), "drawing the wound");
     report->details["pictures"] = *written;
+    if (!options.photograph.empty()) {
+      const auto photo = DrawOnPhotograph(options, *surface, *outline, maps);
+      if (!photo) return Fail(photo.error(), "drawing the wound");
+      report->details["pictures"].push_back(*photo);
+    }
   }
   context.Output(ToJson(*report), Text(*report));
   return {};
@@ -83,8 +100,10 @@ void AddCommand_measure_wound(CLI::App& root, Context& context) {
       ->required();
   command->add_option("--outline", options->outline, "Outline of the wound in sensor pixels (JSON, LabelMe too)")
       ->required();
-  command->add_option("--pictures", options->pictures,
-                      "Folder for boundary.png, depth.png (0 to 15 mm), view.png and sections.svg");
+  CLI::Option* pictures = command->add_option(
+      "--pictures", options->pictures, "Folder for boundary.png, depth.png (0 to 15 mm), view.png and sections.svg");
+  command->add_option("--photo", options->photograph, "The photograph itself: photo.png shows the line on it")
+      ->needs(pictures);
   OnRun(command, context, [options](Context& c) { return Run(*options, c); });
 }
 

@@ -49,7 +49,8 @@ def volumes(done, missed):
 
 def areas(done, missed):
     """Every class against 3 %; what must hold is that nothing is further off than that or than the jitter explains."""
-    for name, keep in (("all", lambda t: True), (f"over {LARGE_CM2} cm2", lambda t: t["area_cm2"] > LARGE_CM2),
+    for name, keep in (("all", lambda t: True), (f"over {LARGE_CM2} cm2, of 72 points", lambda t: t["area_cm2"] > LARGE_CM2 and t["points"] >= FINE_POINTS),
+                       (f"over {LARGE_CM2} cm2, of fewer", lambda t: t["area_cm2"] > LARGE_CM2 and t["points"] < FINE_POINTS),
                        ("small, of 72 points", lambda t: t["area_cm2"] <= LARGE_CM2 and t["points"] >= FINE_POINTS),
                        ("small, of fewer", lambda t: t["area_cm2"] <= LARGE_CM2 and t["points"] < FINE_POINTS)):
         a = pick([(t, e) for t, e in done if keep(t)], "area")

@@ -85,10 +85,10 @@ def cut_surface(path, outline, target):
         kept.tofile(file)
 
 
-def jittered(outline, mm_per_px, seed):
-    """Every point moved by 0.5 mm (one sd a coordinate); every other drawing has points at least 2 mm apart."""
+def jittered(outline, mm_per_px, seed, coarse=None):
+    """Every point moved by 0.5 mm (one sd a coordinate); drawn coarsely (by default every other one) points are 2 mm apart."""
     rng = np.random.default_rng(seed)
-    if seed % 2:
+    if seed % 2 if coarse is None else coarse:
         keep = [outline[0]]
         for p in outline[1:]:
             if np.hypot(*(p - keep[-1])) * mm_per_px > 2:
@@ -132,6 +132,10 @@ def measure(options, folder, polygon, tag):
     path = os.path.join(folder, f"outline-{tag}.json")
     with open(path, "w") as file:
         json.dump({"polygon_px": polygon.tolist()}, file)
+    return measure_with(options, folder, path)
+
+
+def measure_with(options, folder, path):
     process = run([options.striae, "measure", "wound", os.path.join(folder, "surface.ply"), "--outline", path, "--json"])
     return (json.loads(process[4]) if process[3] == 0 else None), process[0]
 
@@ -166,15 +170,18 @@ def keep(options, name, truth, report):
 KINDS = ["limb", "calf", "flat", "limb", "heel"]
 
 
+def bar_scene(options, rigs, i):
+    kind = KINDS[i % len(KINDS)]
+    return scene(options, rigs[i % len(rigs)], f"scene-{i:03d}", (kind, 100 + i, *draw_wound(100 + i, kind)), 5000 + i)
+
+
 def bars(options, rigs):
     rows = []
     print(f"{'scene':>12} {'kind':5} {'mL':>6} {'mean':>5} {'max mm':>6} {'cm2':>6} wall | {'volume %':>9} {'e/u':>5} | {'area %':>7} {'e/u':>5} | "
           f"{'depth %':>7} {'e/u':>5} | seconds, flags")
     for i in range(options.first, options.first + options.scenes):
-        kind = KINDS[i % len(KINDS)]
-        wound = (kind, 100 + i, *draw_wound(100 + i, kind))
-        folder, truth = scene(options, rigs[i % len(rigs)], f"scene-{i:03d}", wound, 5000 + i)
-        label = f"{i:12d} {kind:5} {truth['volume_ml']:6.2f} {truth['mean_depth_mm']:5.2f} {truth['depth_mm']:6.2f} {truth['area_cm2']:6.2f} {truth['wall']:4.1f} |"
+        folder, truth = bar_scene(options, rigs, i)
+        label = f"{i:12d} {truth['kind']:5} {truth['volume_ml']:6.2f} {truth['mean_depth_mm']:5.2f} {truth['depth_mm']:6.2f} {truth['area_cm2']:6.2f} {truth['wall']:4.1f} |"
         polygon = jittered(np.array(truth["outline_px"]), truth["mm_per_px"], i)
         truth |= {"points": len(polygon), "jitter_area_sd": jitter_area_sd(polygon, truth["mm_per_px"], truth["area_cm2"])}
         report, seconds = (None, 0) if truth["failed"] else measure(options, folder, polygon, "jittered")
@@ -220,21 +227,54 @@ def repeats(options, rigs):
         kind = ["limb", "flat", "heel", "calf"][wound_index % 4]
         depth, radius, body = [(5, 12, 55), (4, 9, 0), (4, 10, 43), (8, 18, 60)][wound_index % 4]
         wound = (kind, 800 + wound_index, depth, radius, body)
-        volumes, areas = [], []
+        volumes, areas, coarse = [], [], []
         for k in range(10):
             folder, truth = scene(options, rigs[0], f"repeat-{wound_index}-{k}", wound, 8000 + 10 * wound_index + k)
-            polygon = jittered(np.array(truth["outline_px"]), truth["mm_per_px"], 2 * k + 1)
-            report, _ = measure(options, folder, polygon, "jittered")
+            outline = np.array(truth["outline_px"])
+            report, _ = measure(options, folder, jittered(outline, truth["mm_per_px"], 2 * k, coarse=False), "jittered")
+            other, _ = measure(options, folder, jittered(outline, truth["mm_per_px"], 2 * k + 1, coarse=True), "coarse")
             keep(options, f"repeat-{wound_index}-{k}", truth, report)
-            if report is None:
+            if report is None or other is None:
                 continue
             values = {m["name"]: m["value"] for m in report["measurements"]}
             volumes.append(values["volume"])
             areas.append(values["area"])
+            coarse += [m["value"] for m in other["measurements"] if m["name"] == "area"]
         cv = lambda x: 100 * np.std(x, ddof=1) / np.mean(x)
         print(f"repeatability, {kind}, {truth['volume_ml']:.2f} mL, {truth['area_cm2']:.2f} cm2, {len(volumes)} captures: "
-              f"volume CV {cv(volumes):.2f} % (bar 2), area CV {cv(areas):.2f} % (bar 1.5), mean volume error "
+              f"volume CV {cv(volumes):.2f} % (bar 2), area CV {cv(areas):.2f} % (bar 1.5; points 2 mm apart {cv(coarse):.2f} %), mean volume error "
               f"{100 * (np.mean(volumes) / truth['volume_ml'] - 1):+.2f} %", flush=True)
+
+
+def proposals(options, rigs):
+    """What `measure boundary` proposes from a rough box around the first scenes' wounds, with the photograph and without."""
+    for name in ("surface alone", "photograph", "photograph and the shaken outline"):
+        areas, volumes, spreads, refused = [], [], [], 0
+        for i in range(options.first, options.first + options.proposals):
+            folder, truth = bar_scene(options, rigs, i)
+            outline, rng = np.array(truth["outline_px"]), np.random.default_rng(i)
+            off = rng.normal(0, 1.5, 4) / truth["mm_per_px"]  # the box's sides: 3 mm outside, 1.5 mm rough
+            box = np.concatenate([outline.min(0) - 3 / truth["mm_per_px"], outline.max(0) + 3 / truth["mm_per_px"]]) + off
+            path = os.path.join(folder, "proposed.json")
+            hints = ["--photo", os.path.join(folder, "mesh.jpg")] if "photograph" in name else []
+            if "outline" in name:
+                measure(options, folder, jittered(outline, truth["mm_per_px"], i), "jittered")
+                hints += ["--outline", os.path.join(folder, "outline-jittered.json")]
+            else:
+                hints += ["--box", *box]
+            code = run([options.striae, "measure", "boundary", os.path.join(folder, "surface.ply"), *hints, "--out", path])[3]
+            report = measure_with(options, folder, path)[0] if code == 0 else None
+            if report is None:
+                refused += 1
+                continue
+            values = {m["name"]: m["value"] for m in report["measurements"]}
+            areas.append(values["area"] / truth["area_cm2"] - 1)
+            volumes.append(values["volume"] / truth["volume_ml"] - 1)
+            with open(path) as file:
+                spreads.append(json.load(file)["repeatability"]["area_cv_percent"])
+        print(f"proposed boundaries, {name} ({len(areas)}, {refused} refused): area off by median {np.median(np.abs(areas)):.1%}, nine of ten "
+              f"below {np.percentile(np.abs(areas), 90):.1%}, worst {np.max(np.abs(areas)):.1%}; volume {np.median(np.abs(volumes)):.1%}, {np.percentile(np.abs(volumes), 90):.1%}; "
+              f"pointed at anew, area CV median {np.median(spreads):.2f} %, nine of ten below {np.percentile(spreads, 90):.2f} %", flush=True)
 
 
 def main():
@@ -247,6 +287,7 @@ def main():
     parser.add_argument("--rigs", type=int, default=2)
     parser.add_argument("--oedema", type=int, default=0)
     parser.add_argument("--repeats", type=int, default=0, help="wounds photographed ten times each")
+    parser.add_argument("--proposals", type=int, default=0, help="of the scenes, how many are outlined by the program itself")
     parser.add_argument("--discard", action="store_true", help="delete each surface when it is measured")
     parser.add_argument("--strict", action="store_true", help="exit code 1 when a bar is missed")
     options = parser.parse_args()
@@ -257,6 +298,8 @@ def main():
         oedema(options, rigs)
     if options.repeats:
         repeats(options, rigs)
+    if options.proposals:
+        proposals(options, rigs)
     return 1 if options.strict and missed else 0
 
 

@@ -87,6 +87,84 @@ TEST(Boundary, BarelyDependsOnWhereTheBoxWasDrawn) {
   EXPECT_LT(std::sqrt(squares) / mean, 0.015);  // the bar of hand-held repeats
 }
 
+// The photograph of it: the red circle under stripes of 2 mm whose dark reflects a tenth of their light, with noise.
+ImageRgb StripedPhotograph(const Outline& circle) {
+  ImageRgb photograph(kCamera.width, kCamera.height);
+  std::mt19937 random(6);
+  std::normal_distribution<double> noise(0, 3);
+  for (int row = 0; row < photograph.height(); ++row) {
+    const double light = 0.55 + 0.45 * std::cos(2 * M_PI * row / 6.0);
+    for (int col = 0; col < photograph.width(); ++col) {
+      const bool in = Inside(circle.polygon_px, Eigen::Vector2d(col, row));
+      const auto shade = [&](double value) {  // of light, so that its square root is near enough to sRGB
+        return static_cast<std::uint8_t>(std::clamp(value * std::sqrt(light) + noise(random), 0.0, 255.0));
+      };
+      photograph(col, row) = {shade(200), shade(in ? 115 : 160), shade(in ? 100 : 145)};
+    }
+  }
+  return photograph;
+}
+
+// What lies around the rim is missing: walls that no light reaches.
+Surface WithoutItsWalls(const Surface& surface, const Body& body) {
+  const Outline inner = CircleOn(body, kCamera, 10.5), outer = CircleOn(body, kCamera, 12.5);
+  return striae::testing::Keep(surface, [&](int col, int row) {
+    const Eigen::Vector2d p(col, row);
+    return Inside(inner.polygon_px, p) || !Inside(outer.polygon_px, p);
+  });
+}
+
+TEST(Boundary, IsFoundOnThePhotographWhereTheSurfaceLacksTheWalls) {
+  const Body body{.radius_mm = 55, .crater_radius_mm = 12, .crater_depth_mm = 6};
+  const Outline circle = CircleOn(body, kCamera, 12);
+  const Surface surface = WithoutItsWalls(Painted(body, 12, 45), body);
+  const ImageRgb photograph = StripedPhotograph(circle);
+  const auto seen = ProposeBoundary(surface, Box(circle, 12), {}, &photograph);
+  ASSERT_TRUE(seen) << seen.error().Describe();
+  // A quarter of a pixel all around, as above.
+  EXPECT_NEAR(AreaPx(seen->outline), AreaPx(circle), 0.015 * AreaPx(circle));
+  EXPECT_GT(seen->confidence, 0.9);
+  // From the surface alone the wall is the wound's: its rim lies somewhere in the 2 mm that are missing.
+  const auto guessed = ProposeBoundary(surface, Box(circle, 12));
+  ASSERT_TRUE(guessed) << guessed.error().Describe();
+  EXPECT_GT(AreaPx(guessed->outline), std::pow(10.5 / 12, 2) * AreaPx(circle));
+  EXPECT_LT(AreaPx(guessed->outline), std::pow(12.9 / 12, 2) * AreaPx(circle));
+
+  const auto repeats = RepeatBoundary(surface, Box(circle, 12), *seen, {}, &photograph);
+  EXPECT_EQ(repeats.tried, 8);
+  EXPECT_EQ(repeats.found, 8);
+  EXPECT_LT(repeats.area_cv, 0.005);  // hints 1.5 mm off move a line that the picture shows by nothing
+  EXPECT_LT(repeats.line_sd_mm, 0.1);
+  EXPECT_GT(repeats.line_sd_mm, 0);
+}
+
+TEST(Boundary, MovesADrawnOutlineToTheEdgeThatThePhotographShows) {
+  const Body body{.radius_mm = 55, .crater_radius_mm = 12, .crater_depth_mm = 6};
+  const Outline circle = CircleOn(body, kCamera, 12);
+  const Surface surface = WithoutItsWalls(Painted(body, 12, 45), body);
+  const ImageRgb photograph = StripedPhotograph(circle);
+  Outline drawn = CircleOn(body, kCamera, 12.6, 24);  // 10 % too large, and shaken by half a millimetre
+  std::mt19937 random(7);
+  std::normal_distribution<double> off(0, 1.5);
+  for (auto& p : drawn.polygon_px) p += Eigen::Vector2d(off(random), off(random));
+  const auto moved = ProposeBoundary(surface, {.drawn = drawn.polygon_px}, {}, &photograph);
+  ASSERT_TRUE(moved) << moved.error().Describe();
+  EXPECT_GT(std::abs(AreaPx(drawn) - AreaPx(circle)), 0.05 * AreaPx(circle));
+  EXPECT_NEAR(AreaPx(moved->outline), AreaPx(circle), 0.015 * AreaPx(circle));  // as from a box
+  const auto repeats = RepeatBoundary(surface, {.drawn = drawn.polygon_px}, *moved, {}, &photograph);
+  EXPECT_EQ(repeats.shaken_mm, 0.5);
+  EXPECT_EQ(repeats.found, repeats.tried);
+  EXPECT_LT(repeats.area_cv, 0.005);
+}
+
+TEST(Boundary, RefusesAPhotographOfAnotherSize) {
+  const Body body{.radius_mm = 55, .crater_radius_mm = 12, .crater_depth_mm = 3};
+  const ImageRgb other(kCamera.width / 2, kCamera.height / 2);
+  const auto found = ProposeBoundary(Painted(body, 12, 45), Box(CircleOn(body, kCamera, 12), 12), {}, &other);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kUsage);
+}
+
 TEST(Boundary, IsFoundByShapeWhereTheColourIsTheSkins) {
   const Body body{.radius_mm = 55, .crater_radius_mm = 12, .crater_depth_mm = 5};
   const Outline circle = CircleOn(body, kCamera, 12);

@@ -25,6 +25,7 @@ class Limb {
     return limb;
   }
   [[nodiscard]] std::string surface() const { return (folder_ / "limb.ply").string(); }
+  [[nodiscard]] std::string photograph() const { return (folder_ / "limb/limb.jpg").string(); }
   [[nodiscard]] std::string outline_file() const { return (folder_ / "limb/limb.outline.json").string(); }
   Outline outline;
   json truth;
@@ -98,10 +99,10 @@ TEST(MeasureWound, DrawsTheSamePicturesTwice) {
   std::vector<std::vector<std::uint8_t>> first;
   for (const char* name : {"a", "b"}) {
     const Ran ran = Striae({"measure", "wound", Limb::Get().surface(), "--outline", Limb::Get().outline_file(),
-                            "--pictures", (folder / name).string(), "--json"});
+                            "--pictures", (folder / name).string(), "--photo", Limb::Get().photograph(), "--json"});
     ASSERT_EQ(ran.exit_code, 0) << ran.err;
     const auto pictures = ran.Json().at("pictures").get<std::vector<std::string>>();
-    ASSERT_EQ(pictures.size(), 4U);  // boundary, depth, sections, view
+    ASSERT_EQ(pictures.size(), 5U);  // boundary, depth, sections, view, photo
     for (std::size_t k = 0; k < pictures.size(); ++k) {
       const auto bytes = ReadBytes(pictures[k]);
       EXPECT_GT(bytes.size(), 1000U) << pictures[k];
@@ -196,6 +197,71 @@ TEST(MeasureBoundary, ProposesAnOutlineWithItsAuthorAndConfidence) {
                truth = Values(drawn.Json()).at("area").at("value");
   // Half a millimetre all around a wound of 162 mm is 4 %: the wound's colour begins where it is a little deep.
   EXPECT_NEAR(area, truth, 0.08 * truth);
+}
+
+TEST(MeasureBoundary, LooksAtThePhotographAndSaysHowRepeatableItIs) {
+  const TempDir folder;
+  const std::string out = (folder / "o.json").string(), picture = (folder / "o.png").string();
+  std::vector<std::string> words = {"measure",
+                                    "boundary",
+                                    Limb::Get().surface(),
+                                    "--photo",
+                                    Limb::Get().photograph(),
+                                    "--picture",
+                                    picture,
+                                    "--out",
+                                    out,
+                                    "--json",
+                                    "--box"};
+  for (const auto& side : BoxOf(Limb::Get().outline, 25)) words.push_back(side);
+  const Ran ran = Striae(words);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const json file = json::parse(ReadText(out));
+  EXPECT_EQ(file.at("colours"), "photograph");
+  EXPECT_GT(file.at("confidence").get<double>(), 0.9);
+  EXPECT_EQ(file.at("repeatability").at("found"), file.at("repeatability").at("tried"));
+  EXPECT_LT(file.at("repeatability").at("area_cv_percent").get<double>(), 1.5);  // the bar of hand-held repeats
+  EXPECT_GT(ReadBytes(picture).size(), 10000U);
+}
+
+TEST(MeasureBoundary, KeepsTheDrawnOutlineBesideTheMovedOne) {
+  const TempDir folder;
+  const std::string out = (folder / "o.json").string();
+  const Ran ran = Striae({"measure", "boundary", Limb::Get().surface(), "--photo", Limb::Get().photograph(),
+                          "--outline", Limb::Get().outline_file(), "--by", "anna", "--out", out, "--json"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const json file = json::parse(ReadText(out));
+  EXPECT_EQ(file.at("drawn"), json::parse(ReadText(Limb::Get().outline_file())));
+  EXPECT_NE(file.at("polygon_px"), file.at("drawn").at("polygon_px"));
+  EXPECT_TRUE(OutlineFromJson(ReadText(out)));
+  json stale = file.at("drawn");
+  stale["image_sha256"] = std::string(64, 'a');
+  Write(folder / "stale.json", stale.dump());
+  const Ran refused = Striae({"measure", "boundary", Limb::Get().surface(), "--outline",
+                              (folder / "stale.json").string(), "--out", (folder / "never.json").string()});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("another photograph"));
+  EXPECT_FALSE(fs::exists(folder / "never.json"));
+}
+
+TEST(MeasureBoundary, RefusesAnotherPhotographThanTheSurfaces) {
+  const TempDir folder;
+  const std::string out = (folder / "o.json").string();
+  auto bytes = ReadBytes(Limb::Get().photograph());
+  bytes.push_back(0);
+  WriteBytes(folder / "other.jpg", bytes);
+  std::vector<std::string> words = {
+      "measure", "boundary", Limb::Get().surface(), "--photo", (folder / "other.jpg").string(), "--out", out, "--box"};
+  for (const auto& side : BoxOf(Limb::Get().outline, 25)) words.push_back(side);
+  const Ran ran = Striae(words);
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("is not the photograph"));
+  words[4] = (folder / "absent.jpg").string();
+  EXPECT_THAT(Striae(words).err, HasSubstr("absent.jpg"));
+  words.insert(words.end(), {"--picture", (folder / "o.png").string()});
+  words.erase(words.begin() + 3, words.begin() + 5);
+  EXPECT_THAT(Striae(words).err, HasSubstr("--photo"));
+  EXPECT_FALSE(fs::exists(out));
 }
 
 TEST(MeasureBoundary, RefusesHintsThatEncloseNothing) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/wound/detail/cell_colours.h"
 #include "analysis/wound/detail/polygon.h"
 #include "analysis/wound/detail/skin.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kShallowest_mm = -1.5, kDeepest_mm = 2.5;  // what deeper means than this does not matter to the cut
 constexpr double kColourGain = 3;                           // skin and wound differ by 5 to 40 of a*'s 256 steps
+constexpr double kDeep_mm = 0.5, kWall_mm = 5;              // missing cells so near to cells so deep are a wall
 constexpr double kCore = 0.35;                              // of the box's half sides: surely wound
 
 Eigen::Vector2d ToCell(const Patch& patch, const Eigen::Vector2d& pixel) {
@@ -20,32 +22,12 @@ Eigen::Vector2d ToCell(const Patch& patch, const Eigen::Vector2d& pixel) {
 
 std::vector<Eigen::Vector2d> HintPoints(const BoundaryHints& hints) {
   std::vector<Eigen::Vector2d> all = hints.box;
+  all.insert(all.end(), hints.drawn.begin(), hints.drawn.end());
   for (const auto& stroke : hints.wound_strokes) all.insert(all.end(), stroke.begin(), stroke.end());
   return all;
 }
 
-std::vector<std::array<std::uint8_t, 3>> MeanColours(const Surface& surface, const Patch& patch) {
-  std::vector<std::array<double, 4>> sums(patch.size(), {0, 0, 0, 0});
-  for (std::size_t k = 0; k < surface.size(); ++k) {
-    const int i = (surface.col[k] - patch.col0_px) / patch.bin_px, j = (surface.row[k] - patch.row0_px) / patch.bin_px;
-    if (surface.col[k] < patch.col0_px || surface.row[k] < patch.row0_px || i >= patch.width || j >= patch.height)
-      continue;
-    auto& sum = sums[patch.At(i, j)];
-    sum[0] += surface.colour[k].r;
-    sum[1] += surface.colour[k].g;
-    sum[2] += surface.colour[k].b;
-    sum[3] += 1;
-  }
-  std::vector<std::array<std::uint8_t, 3>> means(patch.size(), {0, 0, 0});
-  for (std::size_t c = 0; c < patch.size(); ++c) {
-    for (std::size_t k = 0; k < 3 && sums[c][3] > 0; ++k) {
-      means[c][k] = static_cast<std::uint8_t>(std::lround(sums[c][k] / sums[c][3]));
-    }
-  }
-  return means;
-}
-
-// Depth of every measured cell below a quadric through the cells outside the box.
+// Depth of every cell that is not missing below a quadric through the cells outside the box.
 std::vector<double> DepthsBelowSkin(const Patch& patch, const std::vector<CellClass>& classes) {
   std::vector<double> depth(patch.size(), 0);
   std::vector<Eigen::Vector3d> skin_points;
@@ -57,7 +39,7 @@ std::vector<double> DepthsBelowSkin(const Patch& patch, const std::vector<CellCl
   for (auto& p : skin_points) p = frame.FromCamera(p);
   const Skin skin = FitSkin(SkinModel::kQuadric, skin_points, WeighRing(skin_points));
   for (std::size_t c = 0; c < patch.size(); ++c) {
-    if (patch.state[c] != Patch::kMeasured) continue;
+    if (patch.state[c] == Patch::kMissing) continue;
     const Eigen::Vector3d p = frame.FromCamera(patch.point[c]);
     depth[c] = skin.Height(p.x(), p.y()) - p.z();
   }
@@ -89,14 +71,61 @@ void MarkBox(const Eigen::Vector2d& low, const Eigen::Vector2d& high, bool core,
   }
 }
 
+// Beyond 2 mm from a drawn line the sides are known; of a small wound at least the middle is.
+void MarkDrawn(const Polygon& drawn, BoundaryField& field) {
+  constexpr double kCertain_mm = 2, kMiddle = 0.6;
+  const PolygonField line(drawn);
+  std::vector<double> distance_mm(field.patch.size());
+  double inmost_mm = 0;
+  for (int j = 0; j < field.patch.height; ++j) {
+    for (int i = 0; i < field.patch.width; ++i) {
+      double& d = distance_mm[field.patch.At(i, j)];
+      d = line.At(field.patch.Pixel(i, j)).distance * field.patch.pixel_mm;
+      inmost_mm = std::max(inmost_mm, -d);
+    }
+  }
+  const double core_mm = std::min(kCertain_mm, kMiddle * inmost_mm);
+  for (std::size_t c = 0; c < distance_mm.size(); ++c) {
+    const double d = distance_mm[c];
+    field.classes[c] = d > kCertain_mm ? CellClass::kSkin
+                       : d > 0         ? CellClass::kProbablySkin
+                       : d < -core_mm  ? CellClass::kWound
+                                       : CellClass::kProbablyWound;
+  }
+}
+
 std::uint8_t Scaled(double value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))); }
 
-void FillFeatures(const Surface& surface, BoundaryField& field) {
-  const auto lab = ToLab(MeanColours(surface, field.patch));
-  const auto depth = DepthsBelowSkin(field.patch, field.classes);
+// What is known of the cells: with a photograph the hues of all, and depths that a membrane continues into holes; else
+// the surface's colours, and holes beside the wound as its walls.
+struct Known {
+  CellColours colours;
+  std::vector<double> depth_mm;
+  std::vector<std::uint8_t> is_known;
+};
+
+Known WhatIsKnown(const Surface& surface, const ImageRgb* photograph, const BoundaryField& field) {
+  const Patch& patch = field.patch;
+  Known known;
+  if (photograph != nullptr) {
+    Patch whole = patch;
+    FillHoles(whole, std::vector<std::uint8_t>(patch.size(), 1));
+    return {HuesOf(*photograph, patch), DepthsBelowSkin(whole, field.classes),
+            std::vector<std::uint8_t>(patch.size(), 1)};
+  }
+  known = {ColoursOf(surface, patch), DepthsBelowSkin(patch, field.classes), {}};
+  for (const auto state : patch.state) known.is_known.push_back(state == Patch::kMeasured ? 1 : 0);
+  const auto reach_cells = static_cast<int>(std::lround(kWall_mm / patch.cell_mm()));
+  for (const auto c : GiveToWound(patch, kDeep_mm, reach_cells, known.depth_mm, known.colours)) known.is_known[c] = 1;
+  return known;
+}
+
+void FillFeatures(const Surface& surface, const ImageRgb* photograph, BoundaryField& field) {
+  const auto [colours, depth, known] = WhatIsKnown(surface, photograph, field);
+  const auto lab = ToLab(colours);
   double mean_a = 0, mean_b = 0, count = 0;
   for (std::size_t c = 0; c < lab.size(); ++c) {
-    if (field.classes[c] != CellClass::kSkin || field.patch.state[c] != Patch::kMeasured) continue;
+    if (field.classes[c] != CellClass::kSkin || known[c] == 0) continue;
     mean_a += lab[c][1];
     mean_b += lab[c][2];
     ++count;
@@ -107,12 +136,12 @@ void FillFeatures(const Surface& surface, BoundaryField& field) {
   }
   field.features.resize(lab.size());
   for (std::size_t c = 0; c < lab.size(); ++c) {
-    const bool there = field.patch.state[c] == Patch::kMeasured;
     const double share =
         (std::clamp(depth[c], kShallowest_mm, kDeepest_mm) - kShallowest_mm) / (kDeepest_mm - kShallowest_mm);
-    field.features[c] = {there ? Scaled(96 + kColourGain * (lab[c][1] - mean_a)) : std::uint8_t{96},
-                         there ? Scaled(96 + kColourGain * (lab[c][2] - mean_b)) : std::uint8_t{96},
-                         Scaled(there ? 255 * share : 255 * -kShallowest_mm / (kDeepest_mm - kShallowest_mm))};
+    field.features[c] = {known[c] != 0 ? Scaled(96 + kColourGain * (lab[c][1] - mean_a)) : std::uint8_t{96},
+                         known[c] != 0 ? Scaled(96 + kColourGain * (lab[c][2] - mean_b)) : std::uint8_t{96},
+                         Scaled(255 * share)};
+    if (known[c] == 0 && field.classes[c] == CellClass::kProbablyWound) field.classes[c] = CellClass::kProbablySkin;
   }
 }
 
@@ -137,9 +166,11 @@ void SmoothFeatures(BoundaryField& field) {
 
 }  // namespace
 
-Result<BoundaryField> PrepareField(const Surface& surface, const BoundaryHints& hints, const BoundaryOptions& options) {
+Result<BoundaryField> PrepareField(const Surface& surface, const BoundaryHints& hints, const BoundaryOptions& options,
+                                   const ImageRgb* photograph) {
   const auto points = HintPoints(hints);
-  if (points.size() < 2) return Fail(ErrorCode::kUsage, "give a box around the wound, or a stroke in it");
+  if (points.size() < 2)
+    return Fail(ErrorCode::kUsage, "give a box around the wound, a stroke in it, or a drawn outline");
   Eigen::Vector2d low = points.front(), high = low;
   for (const auto& p : points) {
     if (!p.allFinite()) return Fail(ErrorCode::kUsage, "a box or stroke has a point that is not finite");
@@ -147,8 +178,8 @@ Result<BoundaryField> PrepareField(const Surface& surface, const BoundaryHints& 
     high = high.cwiseMax(p);
   }
   if (!((high - low).minCoeff() > 4)) return Fail(ErrorCode::kUsage, "the box around the wound is empty");
-  const bool boxed = !hints.box.empty();
-  if (!boxed) {  // strokes lie well inside: the wound may be as large again on every side
+  const bool boxed = !hints.box.empty(), drawn = hints.drawn.size() >= 3;
+  if (!boxed && !drawn) {  // strokes lie well inside: the wound may be as large again on every side
     const Eigen::Vector2d grow = (high - low).cwiseMax(0.5 * (high - low).maxCoeff());
     low -= grow;
     high += grow;
@@ -171,13 +202,12 @@ Result<BoundaryField> PrepareField(const Surface& surface, const BoundaryHints& 
   if (!patch) return Fail(patch.error());
   field.patch = *std::move(patch);
   field.classes.assign(field.patch.size(), CellClass::kSkin);
-  MarkBox(low, high, boxed && hints.wound_strokes.empty(), field);
-  for (std::size_t c = 0; c < field.patch.size(); ++c) {
-    if (field.patch.state[c] == Patch::kMissing && field.classes[c] == CellClass::kProbablyWound) {
-      field.classes[c] = CellClass::kProbablySkin;
-    }
+  if (drawn) {
+    MarkDrawn(hints.drawn, field);
+  } else {
+    MarkBox(low, high, boxed && hints.wound_strokes.empty(), field);
   }
-  FillFeatures(surface, field);
+  FillFeatures(surface, photograph, field);
   SmoothFeatures(field);
   for (const auto& stroke : hints.wound_strokes) MarkStroke(stroke, CellClass::kWound, field);
   for (const auto& stroke : hints.skin_strokes) MarkStroke(stroke, CellClass::kSkin, field);

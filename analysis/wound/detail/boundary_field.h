@@ -10,7 +10,7 @@
 
 namespace striae::wound {
 
-/// Cells with their features; those without a surface are skin.
+/// Cells with their features.
 struct BoundaryField {
   Patch patch;
   std::vector<std::array<std::uint8_t, 3>> features;
@@ -20,6 +20,7 @@ struct BoundaryField {
 
 /// Cuts out the cells around the hints, takes their colours and depths, and marks what the hints say. Errors as
 /// ProposeBoundary().
-Result<BoundaryField> PrepareField(const Surface& surface, const BoundaryHints& hints, const BoundaryOptions& options);
+Result<BoundaryField> PrepareField(const Surface& surface, const BoundaryHints& hints, const BoundaryOptions& options,
+                                   const ImageRgb* photograph);
 
 }  // namespace striae::wound

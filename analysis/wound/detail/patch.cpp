@@ -95,16 +95,6 @@ void AverageCells(const Surface& surface, const Image<std::int32_t>& grid, Patch
   }
 }
 
-template <typename Visit>
-void ForNeighbours(const Patch& patch, std::size_t cell, Visit visit) {
-  const auto width = static_cast<std::size_t>(patch.width);
-  const auto i = cell % width;
-  if (i > 0) visit(cell - 1);
-  if (i + 1 < width) visit(cell + 1);
-  if (cell >= width) visit(cell - width);
-  if (cell + width < patch.size()) visit(cell + width);
-}
-
 }  // namespace
 
 void RayModel::Fit(const Surface& surface, const std::vector<std::uint32_t>& vertices) {

@@ -50,6 +50,17 @@ struct Patch {
   }
 };
 
+/// Calls `visit` with each of the up to four cells beside one.
+template <typename Visit>
+void ForNeighbours(const Patch& patch, std::size_t cell, Visit visit) {
+  const auto width = static_cast<std::size_t>(patch.width);
+  const auto i = cell % width;
+  if (i > 0) visit(cell - 1);
+  if (i + 1 < width) visit(cell + 1);
+  if (cell >= width) visit(cell - width);
+  if (cell + width < patch.size()) visit(cell + width);
+}
+
 /// Cuts out everything within `reach_mm` of the polygon. kOutlineOffSurface when hardly any point lies there.
 Result<Patch> CutPatch(const Surface& surface, const std::vector<Eigen::Vector2d>& polygon_px, double cell_mm,
                        double reach_mm);

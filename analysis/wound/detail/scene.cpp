@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/wound/detail/stale.h"
+#include "core/surface_comments.h"
 
 namespace striae::wound {
 namespace {

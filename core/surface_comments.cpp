@@ -1,15 +1,19 @@
-#include "analysis/wound/detail/stale.h"
+#include "core/surface_comments.h"
 
 #include <cstdlib>
 #include <string_view>
 
-namespace striae::wound {
+namespace striae {
+namespace {
+constexpr std::string_view kPhotograph = "photograph sha256 ";
+}
+
+std::string PhotographComment(const Sha256& photograph) { return std::string(kPhotograph) + photograph.ToString(); }
 
 std::optional<Sha256> PhotographOf(const Surface& surface) {
-  constexpr std::string_view kStart = "photograph sha256 ";
   for (const std::string& comment : surface.comments) {
-    if (!comment.starts_with(kStart)) continue;
-    const auto sha256 = Sha256::Parse(std::string_view(comment).substr(kStart.size()));
+    if (!comment.starts_with(kPhotograph)) continue;
+    const auto sha256 = Sha256::Parse(std::string_view(comment).substr(kPhotograph.size()));
     if (sha256) return *sha256;
   }
   return std::nullopt;
@@ -25,4 +29,4 @@ std::optional<double> CarrierPeriodOf(const Surface& surface) {
   return std::nullopt;
 }
 
-}  // namespace striae::wound
+}  // namespace striae

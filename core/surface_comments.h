@@ -2,15 +2,18 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/hex.h"
 #include "core/surface.h"
 
-namespace striae::wound {
+namespace striae {
 
-/// From the comment "photograph sha256 ..."; nothing where there is none.
+/// The comment that names the photograph.
+std::string PhotographComment(const Sha256& photograph);
+/// From that comment; nothing where there is none.
 std::optional<Sha256> PhotographOf(const Surface& surface);
 /// From the comment "carrier period px ...", sensor pixels a stripe; nothing where there is none.
 std::optional<double> CarrierPeriodOf(const Surface& surface);
 
-}  // namespace striae::wound
+}  // namespace striae
