@@ -158,13 +158,17 @@ def jitter_area_sd(polygon, mm_per_px, area_cm2):
     return float(OUTLINE_JITTER_MM * np.sqrt(np.sum(half**2)) / 100 / area_cm2)
 
 
-def keep(options, name, truth, report):
-    """One line a scene, so that nothing is lost when a long run ends early; the surface goes with --discard."""
+def keep(options, name, truth, report, needed=False):
+    """One line a scene, so that nothing is lost when a long run ends early; the surface goes with --discard unless needed again."""
     with open(os.path.join(options.cache, "results.jsonl"), "a") as file:
         file.write(json.dumps({"name": name, "truth": {k: v for k, v in truth.items() if k != "outline_px"}, "report": report}) + "\n")
-    surface = os.path.join(options.cache, name, "surface.ply")
-    if options.discard and os.path.exists(surface):
-        shutil.rmtree(os.path.dirname(surface))
+    if not needed:
+        discard(options, os.path.join(options.cache, name))
+
+
+def discard(options, folder):
+    if options.discard:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 KINDS = ["limb", "calf", "flat", "limb", "heel"]
@@ -185,7 +189,7 @@ def bars(options, rigs):
         polygon = jittered(np.array(truth["outline_px"]), truth["mm_per_px"], i)
         truth |= {"points": len(polygon), "jitter_area_sd": jitter_area_sd(polygon, truth["mm_per_px"], truth["area_cm2"])}
         report, seconds = (None, 0) if truth["failed"] else measure(options, folder, polygon, "jittered")
-        keep(options, f"scene-{i:03d}", truth, report)
+        keep(options, f"scene-{i:03d}", truth, report, needed=i < options.first + options.proposals)
         if report is None:
             print(label, "no surface" if truth["failed"] else "refused", flush=True)
             rows.append((truth, None))
@@ -221,29 +225,36 @@ def oedema(options, rigs):
               f"{(m['value'] - truth['volume_ml']) / m['uncertainty']:+.1f}, gap {report['skin']['gap_mm']}, {m['status']} {m.get('reason', '')[:80]}", flush=True)
 
 
+def propose(options, folder, hints):
+    """The outline that the program proposes, measured: the report or None, and the proposal's file."""
+    path = os.path.join(folder, "proposed.json")
+    code = run([options.striae, "measure", "boundary", os.path.join(folder, "surface.ply"), *hints, "--out", path])[3]
+    return measure_with(options, folder, path)[0] if code == 0 else None, path
+
+
 def repeats(options, rigs):
-    """Ten hand-held captures of one wound, each outlined anew."""
+    """Ten hand-held captures of one wound, each outlined anew: with 72 points, more coarsely, and moved to the visible edge."""
+    cv = lambda x: 100 * np.std(x, ddof=1) / np.mean(x)
     for wound_index in range(options.repeats):
         kind = ["limb", "flat", "heel", "calf"][wound_index % 4]
         depth, radius, body = [(5, 12, 55), (4, 9, 0), (4, 10, 43), (8, 18, 60)][wound_index % 4]
         wound = (kind, 800 + wound_index, depth, radius, body)
-        volumes, areas, coarse = [], [], []
+        volumes, areas = [], {"72 points": [], "points 2 mm apart": [], "moved to the edge": []}
         for k in range(10):
             folder, truth = scene(options, rigs[0], f"repeat-{wound_index}-{k}", wound, 8000 + 10 * wound_index + k)
-            outline = np.array(truth["outline_px"])
-            report, _ = measure(options, folder, jittered(outline, truth["mm_per_px"], 2 * k, coarse=False), "jittered")
-            other, _ = measure(options, folder, jittered(outline, truth["mm_per_px"], 2 * k + 1, coarse=True), "coarse")
-            keep(options, f"repeat-{wound_index}-{k}", truth, report)
-            if report is None or other is None:
-                continue
-            values = {m["name"]: m["value"] for m in report["measurements"]}
-            volumes.append(values["volume"])
-            areas.append(values["area"])
-            coarse += [m["value"] for m in other["measurements"] if m["name"] == "area"]
-        cv = lambda x: 100 * np.std(x, ddof=1) / np.mean(x)
-        print(f"repeatability, {kind}, {truth['volume_ml']:.2f} mL, {truth['area_cm2']:.2f} cm2, {len(volumes)} captures: "
-              f"volume CV {cv(volumes):.2f} % (bar 2), area CV {cv(areas):.2f} % (bar 1.5; points 2 mm apart {cv(coarse):.2f} %), mean volume error "
-              f"{100 * (np.mean(volumes) / truth['volume_ml'] - 1):+.2f} %", flush=True)
+            outline, seed = np.array(truth["outline_px"]), 100 * wound_index + k
+            fine, _ = measure(options, folder, jittered(outline, truth["mm_per_px"], seed, coarse=False), "jittered")
+            coarse, _ = measure(options, folder, jittered(outline, truth["mm_per_px"], seed, coarse=True), "coarse")
+            moved, _ = propose(options, folder, ["--photo", os.path.join(folder, "mesh.jpg"), "--outline",
+                                                 os.path.join(folder, "outline-coarse.json")])
+            keep(options, f"repeat-{wound_index}-{k}", truth, fine)
+            for name, report in zip(areas, (fine, coarse, moved)):
+                values = {m["name"]: m["value"] for m in report["measurements"]} if report else {}
+                areas[name] += [values["area"]] if values else []
+                volumes += [values["volume"]] if values and report is fine else []
+        print(f"repeatability, {kind}, {truth['volume_ml']:.2f} mL, {truth['area_cm2']:.2f} cm2, {len(volumes)} captures: volume CV "
+              f"{cv(volumes):.2f} % (bar 2), mean error {100 * (np.mean(volumes) / truth['volume_ml'] - 1):+.2f} %; area CV (bar 1.5) "
+              + ", ".join(f"{name} {cv(values):.2f} %" for name, values in areas.items()), flush=True)
 
 
 def proposals(options, rigs):
@@ -255,15 +266,13 @@ def proposals(options, rigs):
             outline, rng = np.array(truth["outline_px"]), np.random.default_rng(i)
             off = rng.normal(0, 1.5, 4) / truth["mm_per_px"]  # the box's sides: 3 mm outside, 1.5 mm rough
             box = np.concatenate([outline.min(0) - 3 / truth["mm_per_px"], outline.max(0) + 3 / truth["mm_per_px"]]) + off
-            path = os.path.join(folder, "proposed.json")
             hints = ["--photo", os.path.join(folder, "mesh.jpg")] if "photograph" in name else []
             if "outline" in name:
                 measure(options, folder, jittered(outline, truth["mm_per_px"], i), "jittered")
                 hints += ["--outline", os.path.join(folder, "outline-jittered.json")]
             else:
                 hints += ["--box", *box]
-            code = run([options.striae, "measure", "boundary", os.path.join(folder, "surface.ply"), *hints, "--out", path])[3]
-            report = measure_with(options, folder, path)[0] if code == 0 else None
+            report, path = propose(options, folder, hints)
             if report is None:
                 refused += 1
                 continue
@@ -275,6 +284,8 @@ def proposals(options, rigs):
         print(f"proposed boundaries, {name} ({len(areas)}, {refused} refused): area off by median {np.median(np.abs(areas)):.1%}, nine of ten "
               f"below {np.percentile(np.abs(areas), 90):.1%}, worst {np.max(np.abs(areas)):.1%}; volume {np.median(np.abs(volumes)):.1%}, {np.percentile(np.abs(volumes), 90):.1%}; "
               f"pointed at anew, area CV median {np.median(spreads):.2f} %, nine of ten below {np.percentile(spreads, 90):.2f} %", flush=True)
+    for i in range(options.first, options.first + options.proposals):
+        discard(options, os.path.join(options.cache, f"scene-{i:03d}"))
 
 
 def main():
