@@ -140,7 +140,8 @@ Result<AnalysisReport> Measure(const Surface& surface, const Outline& outline, c
   report.details["net_volume_at_first_gap_ml"] = choice->first_volume_mm3 / 1000;
   report.details["volume_uncertainty_parts_ml"] = budget.volume_parts_ml;
   report.details["depth_max_uncertainty_parts_mm"] = budget.depth_parts_mm;
-  report.details["depth_max"] = {{"smoothed_mm", findings.depths.max_mm},
+  report.details["depth_max"] = {{"at_px", {findings.deepest.at_px.x(), findings.deepest.at_px.y()}},
+                                 {"smoothed_mm", findings.depths.max_mm},
                                  {"window_correction_mm", findings.deepest.correction_mm},
                                  {"fit_noise_mm", findings.deepest.noise_mm}};
   report.details["outline_roughness_mm"] = plus->line.roughness;

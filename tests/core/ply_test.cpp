@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -92,6 +93,12 @@ TEST(Ply, KeepsTheUncertaintyOfEachPoint) {
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->uncertainty_mm, patch.uncertainty_mm);
   EXPECT_TRUE(DecodePly(EncodePly(Patch()))->uncertainty_mm.empty());
+  for (const float none : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -0.1F}) {
+    patch.uncertainty_mm[2] = none;
+    const auto refused = DecodePly(EncodePly(patch));
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, ::testing::HasSubstr("uncertainty of vertex 2"));
+  }
 }
 
 TEST(Ply, ASurfaceWithoutColoursIsWrittenGrey) {

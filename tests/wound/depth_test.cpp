@@ -31,6 +31,8 @@ TEST(GreatestDepth, IsAlongTheSkinsNormalFarFromTheOutlinesMiddle) {
   for (auto& p : circle.polygon_px) p.x() += 13 * 3;
   const auto report = MeasureOrFail(Observe(body, kCamera), circle);
   const double given_back_mm = report.details["depth_max"]["window_correction_mm"].get<double>();
+  const auto at_px = report.details["depth_max"]["at_px"];
+  EXPECT_NEAR(std::hypot(at_px[0].get<double>() - 199.5, at_px[1].get<double>() - 199.5), 0, 3);  // the crater's middle
   EXPECT_NEAR(report.Find("depth_max")->value - given_back_mm, 7, 0.002);  // pixels of 1/3 mm on a quadric: exact
 }
 

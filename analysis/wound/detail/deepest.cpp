@@ -119,6 +119,8 @@ Deepest FindDeepest(const Scene& scene, const Bed& bed, const Skin& skin, const 
     samples.push_back({x, y, NormalDepth(skin, bed.point[k]), scene.patch.UncertaintyMm(bed.cell[k])});
   }
   Deepest deepest;
+  deepest.at_px =
+      scene.patch.Pixel(static_cast<int>(bed.cell[middle] % width), static_cast<int>(bed.cell[middle] / width));
   deepest.depth_mm = smoothed.max_mm;
   if (samples.size() < kLeastPoints) return deepest;
   deepest.surface_mm = BeyondSkin(WeighByUncertainty(samples), skin_uncertainty_mm);

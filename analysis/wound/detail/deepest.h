@@ -6,7 +6,8 @@
 namespace striae::wound {
 
 struct Deepest {
-  double depth_mm = 0;       ///< along the skin's normal
+  Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  ///< where, sensor pixels
+  double depth_mm = 0;                              ///< along the skin's normal
   double noise_mm = 0;       ///< standard uncertainty from the fit's residuals, which hang together over a stripe
   double correction_mm = 0;  ///< what of it undoes the window
   double surface_mm = 0;     ///< by how much the surface is less certain there than on the skin around
