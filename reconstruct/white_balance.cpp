@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/srgb.h"
+
 namespace striae::reconstruct {
 namespace {
 
@@ -14,22 +16,12 @@ struct Light {
   std::size_t count = 0;
 };
 
-/// sRGB (IEC 61966-2-1).
-double Decoded(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-double Encoded(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
-
 double Rec709(const Light& light) { return 0.2126 * light.r + 0.7152 * light.g + 0.0722 * light.b; }
-
-std::array<double, 256> DecodingTable() {
-  std::array<double, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) table[i] = Decoded(static_cast<double>(i) / 255);
-  return table;
-}
 
 /// Mean light of the points that `chosen` takes.
 template <typename Chosen>
 Light MeanLight(const Surface& surface, const Chosen& chosen) {
-  const std::array<double, 256> linear = DecodingTable();
+  const std::array<double, 256> linear = LightOfBytes();
   Light mean;
   for (std::size_t i = 0; i < surface.size(); ++i) {
     if (!chosen(i)) continue;
@@ -67,8 +59,8 @@ Light Reference(const WhiteBalance& balance, const Surface& surface) {
 std::array<std::uint8_t, 256> GainTable(double gain) {
   std::array<std::uint8_t, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
-    const double light = std::min(1.0, gain * Decoded(static_cast<double>(i) / 255));
-    table[i] = static_cast<std::uint8_t>(std::lround(255 * Encoded(light)));
+    const double light = std::min(1.0, gain * LightFromSrgb(static_cast<double>(i) / 255));
+    table[i] = static_cast<std::uint8_t>(std::lround(255 * SrgbFromLight(light)));
   }
   return table;
 }

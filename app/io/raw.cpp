@@ -13,6 +13,7 @@
 #include "app/io/image_header.h"
 #include "app/io/jpeg.h"
 #include "app/io/luminance.h"
+#include "core/srgb.h"
 
 namespace striae::app {
 namespace {
@@ -26,9 +27,7 @@ class SrgbTable {
  public:
   SrgbTable() : codes_(65536) {
     for (std::size_t i = 0; i < codes_.size(); ++i) {
-      const double v = static_cast<double>(i) / 65535;
-      const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-      codes_[i] = static_cast<std::uint8_t>(std::lround(255 * encoded));
+      codes_[i] = static_cast<std::uint8_t>(std::lround(255 * SrgbFromLight(static_cast<double>(i) / 65535)));
     }
   }
   std::uint8_t operator()(float linear) const {

@@ -4,22 +4,14 @@
 #include <limits>
 #include <numbers>
 
+#include "core/srgb.h"
+
 namespace striae::reconstruct::detail {
 namespace {
 
 constexpr double kDark = 0.25;     ///< of the light of bright stripes on the darker side
 constexpr double kMissing = 0.75;  ///< stripes by which the phase goes on in the dark: half a one is usual
 constexpr double kSeen = 4;        ///< noises by which a dim stripe stands out
-
-/// Linear light of 8-bit sRGB (IEC 61966-2-1).
-std::array<double, 256> DecodedSrgb() {
-  std::array<double, 256> decoded{};
-  for (std::size_t i = 0; i < decoded.size(); ++i) {
-    const double v = static_cast<double>(i) / 255;
-    decoded[i] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  }
-  return decoded;
-}
 
 double Brightest(const std::vector<double>& light, int first, int last) {
   first = std::max(first, 0);
@@ -33,7 +25,7 @@ LineLight::LineLight(const Grid& grid, const PhaseResult& phase, const ImageRgb&
     : grid_(grid),
       unwrapped_(phase.unwrapped),
       picture_(picture),
-      decoded_(DecodedSrgb()),
+      decoded_(LightOfBytes()),
       period_(phase.carrier_period_px),
       horizontal_(phase.direction == StripeDirection::kHorizontal),
       // The amplitude's noise is that of about a period's pixels (the Hann window's noise bandwidth); Light adds up

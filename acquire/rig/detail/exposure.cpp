@@ -7,7 +7,7 @@
 
 #include "acquire/rig/detail/bands.h"
 #include "acquire/rig/detail/random.h"
-#include "acquire/rig/detail/srgb.h"
+#include "core/srgb.h"
 
 namespace striae::rig::detail {
 namespace {
@@ -20,7 +20,7 @@ std::vector<std::uint8_t> SrgbCurve() {
   std::vector<std::uint8_t> curve(kCurveSteps);
   for (int i = 0; i < kCurveSteps; ++i) {
     const double x = (i + 0.5) / kCurveSteps;
-    curve[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255 * ToSrgb(x)));
+    curve[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255 * SrgbFromLight(x)));
   }
   return curve;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/srgb.h"
+
 namespace striae::wound {
 namespace {
 
@@ -11,19 +13,12 @@ using Light = std::array<double, 3>;  // linear
 constexpr double kLuminance = 0.25;  // that all hues are brought to: L* 57
 constexpr Light kToLuminance = {0.2126, 0.7152, 0.0722};
 
-double Decoded(std::uint8_t value) {  // sRGB, IEC 61966-2-1
-  const double v = value / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 std::uint8_t Encoded(double light) {
-  const double v = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(v, 0.0, 1.0)));
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(SrgbFromLight(light), 0.0, 1.0)));
 }
 
 std::vector<Light> LightOfCells(const ImageRgb& photograph, const Patch& patch) {
-  std::array<double, 256> decoded{};
-  for (std::size_t v = 0; v < decoded.size(); ++v) decoded[v] = Decoded(static_cast<std::uint8_t>(v));
+  const std::array<double, 256> decoded = LightOfBytes();
   std::vector<Light> light(patch.size(), Light{0, 0, 0});
   for (int j = 0; j < patch.height; ++j) {
     for (int i = 0; i < patch.width; ++i) {
