@@ -60,9 +60,11 @@ Status ReadVertices(PlyReader& reader, const PlyElement& element, Surface& surfa
       surface.col.push_back(PixelOf(value(7)));
       surface.row.push_back(PixelOf(value(8)));
     }
-    if (doubted && !(std::isfinite(value(9)) && value(9) >= 0))
-      return Fail(ErrorCode::kBadFile, "the uncertainty of vertex " + std::to_string(i) + " of the PLY is none");
-    if (doubted) surface.uncertainty_mm.push_back(static_cast<float>(value(9)));
+    if (doubted) {
+      if (!(std::isfinite(value(9)) && value(9) >= 0))
+        return Fail(ErrorCode::kBadFile, "the uncertainty of vertex " + std::to_string(i) + " of the PLY is none");
+      surface.uncertainty_mm.push_back(static_cast<float>(value(9)));
+    }
   }
   return {};
 }

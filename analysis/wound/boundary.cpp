@@ -8,6 +8,7 @@
 
 #include "analysis/wound/detail/boundary_field.h"
 #include "analysis/wound/detail/line.h"
+#include "analysis/wound/detail/scene.h"
 #include "core/surface_comments.h"
 
 namespace striae::wound {
@@ -142,6 +143,7 @@ Result<BoundaryProposal> ProposeBoundary(const Surface& surface, const BoundaryH
       (photograph->width() != surface.sensor_width_px || photograph->height() != surface.sensor_height_px)) {
     return Fail(ErrorCode::kUsage, "the photograph has another size than the one that the surface was made from");
   }
+  if (auto same = CheckPhotograph(surface, hints.drawn); !same) return Fail(same.error());
   auto field = PrepareField(surface, hints, options, photograph);
   if (!field) return Fail(field.error());
   const Patch& patch = field->patch;
@@ -174,7 +176,7 @@ BoundaryRepeatability RepeatBoundary(const Surface& surface, const BoundaryHints
   constexpr int kTimes = 8;
   constexpr double kPointed_mm = 1.5, kDrawn_mm = 0.5;
   BoundaryRepeatability repeats;
-  repeats.shaken_mm = hints.drawn.empty() ? kPointed_mm : kDrawn_mm;
+  repeats.shaken_mm = hints.drawn.polygon_px.empty() ? kPointed_mm : kDrawn_mm;
   std::mt19937 random(1);
   std::normal_distribution<double> off(0, repeats.shaken_mm / proposal.pixel_mm);
   const auto shake = [&](std::vector<Eigen::Vector2d>& points) {
@@ -184,7 +186,7 @@ BoundaryRepeatability RepeatBoundary(const Surface& surface, const BoundaryHints
   for (; repeats.tried < kTimes; ++repeats.tried) {
     BoundaryHints shaken = hints;
     shake(shaken.box);
-    shake(shaken.drawn);
+    shake(shaken.drawn.polygon_px);
     for (auto& stroke : shaken.wound_strokes) shake(stroke);
     for (auto& stroke : shaken.skin_strokes) shake(stroke);
     const auto again = ProposeBoundary(surface, shaken, options, photograph);

@@ -16,7 +16,7 @@ struct BoundaryHints {
   std::vector<Eigen::Vector2d> box;                         ///< two opposite corners of a rough box around the wound
   std::vector<std::vector<Eigen::Vector2d>> wound_strokes;  ///< lines that lie in the wound
   std::vector<std::vector<Eigen::Vector2d>> skin_strokes;   ///< lines that lie on healthy skin
-  std::vector<Eigen::Vector2d> drawn;  ///< the whole outline, drawn within 2 mm of the edge: instead of a box
+  Outline drawn;  ///< the whole outline, drawn within 2 mm of the edge: instead of a box
 };
 
 struct BoundaryOptions {
@@ -38,8 +38,8 @@ struct BoundaryProposal {
 /// likeness of either side is equal, to a fraction of a cell, and is smoothed. Colours are the photograph's hues where
 /// one is given (sensor orientation, the surface's size): it sees the walls that the surface lacks. Else they are the
 /// surface's, and what it lacks beside deep cells is taken for the wound's wall. Deterministic.
-/// kUsage for hints that enclose nothing or a photograph of another size, kOutlineOffSurface where there is no surface,
-/// kMeasurementRefused where nothing inside differs from the skin.
+/// kUsage for hints that enclose nothing or a photograph of another size, kOutlineOffSurface where there is no surface
+/// or the outline was drawn on another photograph, kMeasurementRefused where nothing inside differs from the skin.
 Result<BoundaryProposal> ProposeBoundary(const Surface& surface, const BoundaryHints& hints,
                                          const BoundaryOptions& options = {}, const ImageRgb* photograph = nullptr);
 

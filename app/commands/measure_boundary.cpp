@@ -14,7 +14,6 @@
 #include "core/outline.h"
 #include "core/ply.h"
 #include "core/provenance.h"
-#include "core/surface_comments.h"
 #include "report/picture.h"
 
 namespace striae::app {
@@ -65,7 +64,8 @@ Status Run(const BoundaryCommand& command, Context& context) {
   if (!command.picture.empty() && command.photograph.empty()) {
     return Fail(ErrorCode::kUsage, "--picture draws on the photograph: name it by --photo");
   }
-  wound::BoundaryHints hints{.box = *box, .wound_strokes = {}, .skin_strokes = {}};
+  wound::BoundaryHints hints;
+  hints.box = *box;
   std::string drawn_text;
   if (!command.outline.empty()) {
     const auto text = ReadText(command.outline);
@@ -73,12 +73,7 @@ Status Run(const BoundaryCommand& command, Context& context) {
     drawn_text = *text;
     const auto drawn = OutlineFromJson(*text);
     if (!drawn) return Fail(drawn.error(), "reading the outline " + command.outline.string());
-    const auto made_from = PhotographOf(*surface);
-    if (made_from && drawn->image_sha256 && *made_from != *drawn->image_sha256) {
-      return Fail(ErrorCode::kOutlineOffSurface,
-                  command.outline.string() + " was drawn on another photograph than the surface was made from");
-    }
-    hints.drawn = drawn->polygon_px;
+    hints.drawn = *drawn;
   }
   if (!stroke->empty()) hints.wound_strokes.push_back(*stroke);
   if (!skin->empty()) hints.skin_strokes.push_back(*skin);

@@ -147,11 +147,11 @@ TEST(Boundary, MovesADrawnOutlineToTheEdgeThatThePhotographShows) {
   std::mt19937 random(7);
   std::normal_distribution<double> off(0, 1.5);
   for (auto& p : drawn.polygon_px) p += Eigen::Vector2d(off(random), off(random));
-  const auto moved = ProposeBoundary(surface, {.drawn = drawn.polygon_px}, {}, &photograph);
+  const auto moved = ProposeBoundary(surface, {.drawn = drawn}, {}, &photograph);
   ASSERT_TRUE(moved) << moved.error().Describe();
   EXPECT_GT(std::abs(AreaPx(drawn) - AreaPx(circle)), 0.05 * AreaPx(circle));
   EXPECT_NEAR(AreaPx(moved->outline), AreaPx(circle), 0.015 * AreaPx(circle));  // as from a box
-  const auto repeats = RepeatBoundary(surface, {.drawn = drawn.polygon_px}, *moved, {}, &photograph);
+  const auto repeats = RepeatBoundary(surface, {.drawn = drawn}, *moved, {}, &photograph);
   EXPECT_EQ(repeats.shaken_mm, 0.5);
   EXPECT_EQ(repeats.found, repeats.tried);
   EXPECT_LT(repeats.area_cv, 0.005);

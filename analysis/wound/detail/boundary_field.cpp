@@ -22,7 +22,7 @@ Eigen::Vector2d ToCell(const Patch& patch, const Eigen::Vector2d& pixel) {
 
 std::vector<Eigen::Vector2d> HintPoints(const BoundaryHints& hints) {
   std::vector<Eigen::Vector2d> all = hints.box;
-  all.insert(all.end(), hints.drawn.begin(), hints.drawn.end());
+  all.insert(all.end(), hints.drawn.polygon_px.begin(), hints.drawn.polygon_px.end());
   for (const auto& stroke : hints.wound_strokes) all.insert(all.end(), stroke.begin(), stroke.end());
   return all;
 }
@@ -106,14 +106,13 @@ struct Known {
 
 Known WhatIsKnown(const Surface& surface, const ImageRgb* photograph, const BoundaryField& field) {
   const Patch& patch = field.patch;
-  Known known;
   if (photograph != nullptr) {
     Patch whole = patch;
     FillHoles(whole, std::vector<std::uint8_t>(patch.size(), 1));
     return {HuesOf(*photograph, patch), DepthsBelowSkin(whole, field.classes),
             std::vector<std::uint8_t>(patch.size(), 1)};
   }
-  known = {ColoursOf(surface, patch), DepthsBelowSkin(patch, field.classes), {}};
+  Known known{ColoursOf(surface, patch), DepthsBelowSkin(patch, field.classes), {}};
   for (const auto state : patch.state) known.is_known.push_back(state == Patch::kMeasured ? 1 : 0);
   const auto reach_cells = static_cast<int>(std::lround(kWall_mm / patch.cell_mm()));
   for (const auto c : GiveToWound(patch, kDeep_mm, reach_cells, known.depth_mm, known.colours)) known.is_known[c] = 1;
@@ -178,7 +177,7 @@ Result<BoundaryField> PrepareField(const Surface& surface, const BoundaryHints& 
     high = high.cwiseMax(p);
   }
   if (!((high - low).minCoeff() > 4)) return Fail(ErrorCode::kUsage, "the box around the wound is empty");
-  const bool boxed = !hints.box.empty(), drawn = hints.drawn.size() >= 3;
+  const bool boxed = !hints.box.empty(), drawn = hints.drawn.polygon_px.size() >= 3;
   if (!boxed && !drawn) {  // strokes lie well inside: the wound may be as large again on every side
     const Eigen::Vector2d grow = (high - low).cwiseMax(0.5 * (high - low).maxCoeff());
     low -= grow;
@@ -203,7 +202,7 @@ Result<BoundaryField> PrepareField(const Surface& surface, const BoundaryHints& 
   field.patch = *std::move(patch);
   field.classes.assign(field.patch.size(), CellClass::kSkin);
   if (drawn) {
-    MarkDrawn(hints.drawn, field);
+    MarkDrawn(hints.drawn.polygon_px, field);
   } else {
     MarkBox(low, high, boxed && hints.wound_strokes.empty(), field);
   }

@@ -21,12 +21,7 @@ Status CheckInputs(const Surface& surface, const Outline& outline) {
                 "the surface has no sensor pixels (col, row of each vertex), so an outline cannot be laid on it; use a "
                 "surface that striae reconstruct wrote");
   }
-  const auto photograph = PhotographOf(surface);
-  if (photograph && outline.image_sha256 && *photograph != *outline.image_sha256) {
-    return Fail(ErrorCode::kOutlineOffSurface,
-                "the outline was drawn on another photograph (" + outline.image_sha256->ToString().substr(0, 12) +
-                    ") than this surface was made from (" + photograph->ToString().substr(0, 12) + "); draw it again");
-  }
+  if (auto same = CheckPhotograph(surface, outline); !same) return same;
   if (outline.polygon_px.size() < 3) return Fail(ErrorCode::kBadFile, "an outline needs at least three points");
   for (const auto& p : outline.polygon_px) {
     if (!p.allFinite()) return Fail(ErrorCode::kBadFile, "the outline has a point that is not finite");
@@ -135,6 +130,14 @@ Result<std::vector<std::uint8_t>> SortCells(ScenePlus& plus, const std::vector<d
 }
 
 }  // namespace
+
+Status CheckPhotograph(const Surface& surface, const Outline& outline) {
+  const auto photograph = PhotographOf(surface);
+  if (!photograph || !outline.image_sha256 || *photograph == *outline.image_sha256) return {};
+  return Fail(ErrorCode::kOutlineOffSurface,
+              "the outline was drawn on another photograph (" + outline.image_sha256->ToString().substr(0, 12) +
+                  ") than this surface was made from (" + photograph->ToString().substr(0, 12) + "); draw it again");
+}
 
 Result<ScenePlus> BuildScene(const Surface& surface, const Outline& outline, const Options& options) {
   if (auto good = CheckInputs(surface, outline); !good) return Fail(good.error());

@@ -17,6 +17,9 @@ struct ScenePlus {
   double boundary_share = 1;  ///< cells just outside the outline that belong to the skin's sheet
 };
 
+/// kOutlineOffSurface where the outline was drawn on another photograph than the surface was made from, if both say so.
+Status CheckPhotograph(const Surface& surface, const Outline& outline);
+
 /// Checks, cuts out, fills holes, finds the frame and lays the outline on the skin. Errors as Measure().
 Result<ScenePlus> BuildScene(const Surface& surface, const Outline& outline, const Options& options);
 
