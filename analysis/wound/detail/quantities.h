@@ -1,37 +1,16 @@
-// Integrals and lengths of a wound between its bed and a virtual skin.
+// Depths of a wound's bed below a virtual skin, and the lengths of its boundary on it.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "analysis/wound/detail/closed_volume.h"
-#include "analysis/wound/detail/ring.h"
+#include "analysis/wound/detail/bed.h"
 
 namespace striae::wound {
 
-/// The measured surface inside the outline and a margin around it, as a triangulated disc of grid cells.
-struct Bed {
-  std::vector<std::size_t> cell;       ///< patch cell of every bed point
-  std::vector<Eigen::Vector3d> point;  ///< wound frame, unsmoothed
-  std::vector<double> distance;        ///< to the outline, negative inside
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
-/// Cells within `margin_mm` outside the outline; corner-touching parts are joined, separate specks dropped.
-Bed TakeBed(const Scene& scene, double margin_mm);
-
 /// Distance of a point below the skin from it along the skin's own normal, mm; negative above it.
 double NormalDepth(const Skin& skin, const Eigen::Vector3d& p);
-
-/// Height of the skin above the bed at each bed point, along w.
-std::vector<double> HeightsAbove(const Bed& bed, const Skin& skin);
-/// Sum of vertical prisms, mm3: the same as VolumeBetween, but cheap (for many skins in turn).
-double PrismSum(const Bed& bed, const std::vector<double>& height);
-/// Bed and skin for CGAL.
-SheetPair MakeSheets(const Bed& bed, const Skin& skin);
 
 /// Height of the skin above the surface over all cells within `reach_mm` of the outline, Gaussian-smoothed by sd
 /// `smoothing_mm` (over what is there). Cells elsewhere are 0 and must not be asked.

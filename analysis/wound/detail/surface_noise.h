@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "analysis/wound/detail/quantities.h"
-#include "analysis/wound/detail/ring.h"
+#include "analysis/wound/detail/bed.h"
 
 namespace striae::wound {
 
